@@ -56,7 +56,8 @@ Exit status: 0 all criteria pass, 1 one fails, 2 bad input.";
 
 const REPLAY: &str = "A capture is CSV (a header naming columns among i1 … i6, v_sense, v_haptic, pad; one row of integer codes per ADC
 sample; lines \"# key = value\" before it may give sample_rate_hz, bits and, for volts, full_scale_v), WAV (channels in that order;
-integers of 16 to 32 bits or floats; RIFF or RF64) or SigMF (real samples). Slots begin at the first sample.
+integers of 16 to 32 bits or floats; RIFF or RF64) or SigMF (real samples). CSV of oscilloscopes is read with --channels. Slots begin
+where no current flows, while the switch is open.
 
 Examples:
   hapticore replay hockey.wav
@@ -70,6 +71,8 @@ const HDL: &str = "Examples:
   hapticore hdl --profile small --out verilog
   hapticore hdl --calibration mine.toml --out verilog
   hapticore hdl --profile fast --control inverse --dac ad5664 --out verilog
+
+A print takes the place of an earlier one in its folder. Names of modules begin with hapticore_ and the profile's name.
 
 Exit status: 0 done, 2 bad input.";
 
@@ -239,13 +242,15 @@ pub struct CalibrateArgs {
 
 const CODES: &str = "csv: name, address, code, value, format; constants have no address. readmemh: two's complement in hexadecimal, a word a
 line, the position table from address 0 on and the constants behind it, in the order in which they stand there. c: a header.
-All begin with comments that say what they are of.
+All begin with comments that say what they are of. Of a profile with a force controller its words follow: settings, then curve,
+targets and, where the profile has walls, surfaces.
 
 Terminals and pads of a bundled profile become those of the calibration, as with `hapticore hdl --calibration FILE`.
 
 Examples:
   hapticore codes --calibration mine.toml --format readmemh --out codes.hex
   hapticore codes --profile small --calibration mine.toml --format c > codes.h
+  hapticore codes --profile out/fig9/profile.toml --tuning out/fig9/tuning.toml
 
 Exit status: 0 done, 2 bad input.";
 
@@ -259,6 +264,10 @@ pub struct CodesArgs {
     /// The device's calibration [default: the paper's display's]
     #[arg(long, value_name = "FILE")]
     pub calibration: Option<PathBuf>,
+    /// The tuning of the profile's force controller, as `simulate` writes it beside a scene's frames
+    /// [default: all words as after a reset, which drive nothing]
+    #[arg(long, value_name = "FILE")]
+    pub tuning: Option<PathBuf>,
     /// What is printed
     #[arg(long, value_enum, default_value_t = CodesFormat::Csv)]
     pub format: CodesFormat,
@@ -407,6 +416,12 @@ pub struct ReplayArgs {
     /// The samples are volts at the ADC, this many at the end of its range (CSV, floats)
     #[arg(long, value_name = "VOLTS", value_parser = above_zero)]
     pub full_scale_v: Option<f64>,
+    /// Leave out this many samples at the beginning, so that the next whole slot is that of pad 0
+    #[arg(long, value_name = "SAMPLES")]
+    pub skip: Option<u64>,
+    /// Take what is there of a file that is cut short, or whose head names more samples
+    #[arg(long)]
+    pub truncated: bool,
     /// Where results go [default: out/replay-CAPTURE and what differs from the default]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,

@@ -2,17 +2,24 @@
 //! `hapticore calibrate`: a device's calibration from what a lab measured.
 
 use std::path::{Path, PathBuf};
+use std::thread;
+use std::time::Duration;
 
 use anyhow::Result;
+use hapticore_contract::profile::Profile;
+use hapticore_host::DeviceCalibration;
 use hapticore_run::lab::{self, Data, Outcome};
 use hapticore_run::record::Provenance;
-use hapticore_run::{capture, inputs};
+use hapticore_run::{capture, inputs, interrupt};
 
 use crate::args::CalibrateArgs;
-use crate::{console, print, report, say};
+use crate::{console, print, progress, report, say};
 
 /// The profile where none is named.
 const PROFILE: &str = "standard";
+
+/// How often a run asks whether to go on.
+const PATIENCE: Duration = Duration::from_millis(50);
 
 /// Makes a calibration.
 ///
@@ -20,7 +27,7 @@ const PROFILE: &str = "standard";
 /// Data that make none, with what is missing; files that cannot be read or written.
 pub fn run(args: &CalibrateArgs) -> Result<bool> {
     let profile = inputs::profile(args.profile.as_deref().unwrap_or(PROFILE))?;
-    let (device, outcome) = lab::calibrate(&Data::read(&args.data)?, &profile)?;
+    let (device, outcome) = calibrated(Data::read(&args.data)?, profile, args.json)?;
     let report = report_path(&args.out);
     capture::write_text(&args.out, &(comments(&outcome) + &device.text()))?;
     capture::write_text(&report, &report::of_calibration(&outcome))?;
@@ -32,6 +39,20 @@ pub fn run(args: &CalibrateArgs) -> Result<bool> {
     print::calibration_lines(&outcome).iter().for_each(|line| say!("{line}"));
     [&args.out, &report].iter().for_each(|path| say!("  {}", path.display()));
     Ok(true)
+}
+
+/// The calibration of data, made on a thread of its own: equations of many places take half a minute, in which
+/// a run that is told to stop stops.
+fn calibrated(data: Data, profile: Profile, quiet: bool) -> Result<(DeviceCalibration, Outcome)> {
+    let bar = progress::work("calibrating", quiet);
+    let work = thread::spawn(move || lab::calibrate(&data, &profile));
+    while !work.is_finished() {
+        interrupt::check()?;
+        bar.tick();
+        thread::sleep(PATIENCE);
+    }
+    bar.finish_and_clear();
+    work.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
 }
 
 /// Where the report goes: `mine.toml.report.html`.

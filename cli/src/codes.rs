@@ -4,9 +4,11 @@
 //!
 //! | format | is |
 //! | --- | --- |
-//! | `csv` | `name,address,code,value,format`, a row for each constant and each word of the table |
+//! | `csv` | `name,address,code,value,format`, a row for each constant and each word of a table |
 //! | `readmemh` | two's complement in hexadecimal: the table from address 0 on, then the constants |
-//! | `c` | a header: `#define`s of the constants, an array of the table |
+//! | `c` | a header: `#define`s of the constants, an array of each table |
+//!
+//! Of a profile with a force controller the controller's words follow in the same formats.
 
 use std::fmt::Write;
 use std::path::Path;
@@ -19,7 +21,9 @@ use hapticore_host::{CalibrationWords, ConstantWord, DeviceCalibration, digest};
 
 use crate::args::{CodesArgs, CodesFormat};
 use crate::console;
+use crate::control_words::{self, Constant, ControlWords, Table};
 use hapticore_run::record::Provenance;
+use hapticore_run::tuning_file::TuningFile;
 use hapticore_run::{calibrate, capture, inputs};
 
 /// The profile where none is named.
@@ -47,17 +51,35 @@ pub fn run(args: &CodesArgs) -> Result<bool> {
         device.for_profile(&profile).with_context(|| name(args.calibration.as_deref()))?;
     device.residual(&calibration).warning(LIMIT_MM).iter().for_each(|text| console::warn(text));
     let words = CalibrationWords::new(&profile, &calibration);
-    let head = head(&profile, &name(args.calibration.as_deref()));
+    let control = control(args.tuning.as_deref(), &profile)?;
+    let mut head = head(&profile, &name(args.calibration.as_deref())).to_vec();
+    head.extend(args.tuning.as_deref().map(|path| format!("Tuning: {}.", name(Some(path)))));
     let text = match args.format {
-        CodesFormat::Csv => csv(&words, &head),
-        CodesFormat::Readmemh => readmemh(&words, &head),
-        CodesFormat::C => header(&words, &head, &profile),
+        CodesFormat::Csv => csv(&words, &control, &head),
+        CodesFormat::Readmemh => readmemh(&words, &control, &head),
+        CodesFormat::C => header(&words, &control, &head, &profile),
     };
     match &args.out {
         Some(path) => capture::write_text(path, &text)?,
         None => console::print(format_args!("{text}")),
     }
     Ok(true)
+}
+
+/// The words of the profile's controller, none where it has none. Without a tuning they are those of a reset.
+fn control(tuning: Option<&Path>, profile: &Profile) -> Result<ControlWords> {
+    let file = match (tuning, &profile.control) {
+        (Some(path), _) => TuningFile::read(path, profile)?,
+        (None, None) => return Ok(ControlWords::default()),
+        (None, Some(control)) => {
+            console::warn(
+                "no --tuning FILE: the controller's words are those of a reset, which drive nothing; \
+                 `hapticore simulate` writes a tuning.toml for a scene with [control]",
+            );
+            TuningFile::at_reset(profile, control)
+        }
+    };
+    control_words::of(profile, &file)
 }
 
 /// What the calibration is called: its file's name.
@@ -87,7 +109,7 @@ fn comments(head: &[String], sign: &str) -> String {
     head.iter().map(|line| format!("{sign} {line}\n")).collect()
 }
 
-fn csv(words: &CalibrationWords, head: &[String]) -> String {
+fn csv(words: &CalibrationWords, control: &ControlWords, head: &[String]) -> String {
     let mut text = comments(head, "#") + "name,address,code,value,format\n";
     let mut row = |name: &str, address: &str, code: i64, format: Format| {
         writeln!(text, "{name},{address},{code},{},{format}", format.real(code))
@@ -97,20 +119,29 @@ fn csv(words: &CalibrationWords, head: &[String]) -> String {
     for (address, &code) in words.table.iter().enumerate() {
         row(TABLE, &address.to_string(), code, words.table_format);
     }
+    for word in &control.constants {
+        row(word.name, "", word.code, word.format);
+    }
+    for table in &control.tables {
+        for (address, &code) in table.codes.iter().enumerate() {
+            row(table.name, &address.to_string(), code, table.format);
+        }
+    }
     text
 }
 
-fn readmemh(words: &CalibrationWords, head: &[String]) -> String {
+fn readmemh(words: &CalibrationWords, control: &ControlWords, head: &[String]) -> String {
     let (constants, table, word) = (words.constants, &words.table, words.table_format);
     let width = constants
         .iter()
         .map(|constant| constant.format.width)
+        .chain(control.formats().map(|format| format.width))
         .chain([word.width])
         .max()
         .expect("a word");
     let (digits, mask) = (usize::from(width).div_ceil(4), u64::MAX >> (64 - u32::from(width)));
     let mut text = comments(head, "//");
-    let count = table.len() + constants.len();
+    let count = table.len() + constants.len() + control.count();
     writeln!(
         text,
         "// {count} words of {width} bits, sign-extended: reg [{}:0] codes [0:{}];",
@@ -126,30 +157,62 @@ fn readmemh(words: &CalibrationWords, head: &[String]) -> String {
     for (address, ConstantWord { constant, code, format }) in (table.len()..).zip(constants) {
         line(code, &format!(" // {address}: {}, {format}", constant.name()));
     }
+    let mut addresses = table.len() + constants.len()..;
+    let mut at = || addresses.next().expect("there are numbers enough");
+    for Constant { name, code, format, .. } in &control.constants {
+        line(*code, &format!(" // {}: {name}, {format}", at()));
+    }
+    for Table { name, codes, format, .. } in &control.tables {
+        for (index, &code) in codes.iter().enumerate() {
+            line(code, &format!(" // {}: {name} {index}, {format}", at()));
+        }
+    }
     text
 }
 
-fn header(words: &CalibrationWords, head: &[String], profile: &Profile) -> String {
+fn header(
+    words: &CalibrationWords,
+    control: &ControlWords,
+    head: &[String],
+    profile: &Profile,
+) -> String {
     let mut text = comments(head, "//")
         + "#ifndef HAPTICORE_CODES_H\n#define HAPTICORE_CODES_H\n\n#include <stdint.h>\n\n";
     let mut line = |line: String| text.push_str(&(line + "\n"));
     line(format!("#define HAPTICORE_PROFILE {:?}", profile.name));
     line(format!("#define HAPTICORE_PROFILE_DIGEST 0x{:04x}", digest(profile)));
-    for ConstantWord { constant, code, format } in words.constants {
-        let (name, about) = (constant.name().to_uppercase(), constant.about());
+    let of_calibration = words.constants.iter().map(|word| Constant {
+        name: word.constant.name(),
+        code: word.code,
+        format: word.format,
+        about: word.constant.about(),
+    });
+    for Constant { name, code, format, about } in of_calibration.chain(control.constants.clone()) {
+        let name = name.to_uppercase();
         line(format!(
             "#define HAPTICORE_{name} {code} // {format} = {}  {about}",
             format.real(code)
         ));
     }
-    let (table, word) = (&words.table, words.table_format);
-    let words = table.len();
-    line(format!("#define HAPTICORE_{}_WORDS {words}", TABLE.to_uppercase()));
-    line(format!("\n// {word}, by address.\nstatic const int32_t hapticore_{TABLE}[{words}] = {{"));
-    for words in table.chunks(LINE) {
-        let words: Vec<_> = words.iter().map(i64::to_string).collect();
-        line(format!("    {},", words.join(", ")));
+    let of_calibration = Table {
+        name: TABLE,
+        codes: words.table.clone(),
+        format: words.table_format,
+        about: "by address",
+    };
+    for Table { name, codes, format, about } in [&of_calibration].into_iter().chain(&control.tables)
+    {
+        let words = codes.len();
+        line(format!("#define HAPTICORE_{}_WORDS {words}", name.to_uppercase()));
+        line(format!(
+            "\n// {format}, {about}.\nstatic const int32_t hapticore_{name}[{words}] = {{"
+        ));
+        for codes in codes.chunks(LINE) {
+            let codes: Vec<_> = codes.iter().map(i64::to_string).collect();
+            line(format!("    {},", codes.join(", ")));
+        }
+        line("};".into());
     }
-    line("};\n\n#endif".into());
+    line("\n#endif".into());
     text
 }

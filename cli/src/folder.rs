@@ -41,6 +41,11 @@ pub fn of_capture(args: &ReplayArgs) -> PathBuf {
     words.extend(of_core(&args.core));
     words.extend(args.calibration.as_deref().and_then(stem));
     words.extend(args.pads.map(|pads| format!("pads={pads}")));
+    words.extend(args.channels.as_ref().map(|names| format!("channels={}", names.join(","))));
+    words.extend(args.bits.map(|bits| format!("bits={bits}")));
+    words.extend(args.full_scale_v.map(|volts| format!("full-scale-v={volts}")));
+    words.extend(args.skip.map(|samples| format!("skip={samples}")));
+    words.extend(args.truncated.then(|| "truncated".to_string()));
     folder(&words)
 }
 

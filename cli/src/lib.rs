@@ -15,6 +15,7 @@ pub mod args;
 pub mod calibrate;
 pub mod codes;
 pub mod console;
+mod control_words;
 pub mod folder;
 pub mod hdl;
 pub mod output;
@@ -28,6 +29,7 @@ pub mod stability;
 pub mod sweep;
 pub mod tradeoff;
 pub mod waves;
+mod words;
 
 use std::process::ExitCode;
 

@@ -10,6 +10,7 @@ use hapticore_files::AtomicFolder;
 use hapticore_host::{COLUMNS, QUANTITIES};
 use rayon::prelude::*;
 
+use crate::words::{is_left, is_of_words};
 use hapticore_run::record::{Driven, Record, Row, Truth};
 
 /// What a scene adds behind the truth: the case's name, the point of its sweep, and what no frame
@@ -75,33 +76,38 @@ impl Output {
         Ok(())
     }
 
-    /// Gives all files their names, in place of older ones; their paths.
+    /// Gives all files their names, in place of older ones; their paths. Waveforms, profiles and tunings of an earlier run in
+    /// the folder go: they are not of the run that is kept.
     ///
     /// # Errors
-    /// A file cannot be renamed.
+    /// A file cannot be renamed or removed.
     pub fn keep(self) -> Result<Vec<PathBuf>> {
-        self.clear_waves()?;
-        Ok(self.folder.persist()?)
+        let is_of_runs = self.folder.path().join(SUMMARY).exists();
+        self.keep_and_clear(|path| {
+            let name = path.file_name().unwrap_or_default().to_string_lossy();
+            is_of_runs && (is_of_waves(&name) || is_left(path))
+        })
     }
 
-    /// Removes the waveforms of an earlier run in the folder: they are not of the run that is kept.
-    fn clear_waves(&self) -> Result<()> {
-        if !self.folder.path().join(SUMMARY).exists() {
-            return Ok(());
-        }
+    /// Gives all files their names; files of the folder that an earlier run has left, and this one does not write, go.
+    ///
+    /// # Errors
+    /// A file cannot be renamed or removed.
+    pub fn keep_and_clear(self, is_left: impl Fn(&Path) -> bool) -> Result<Vec<PathBuf>> {
         for entry in fs::read_dir(self.folder.path())?.flatten() {
-            if is_of_waves(&entry.file_name().to_string_lossy()) {
-                fs::remove_file(entry.path())
-                    .with_context(|| entry.path().display().to_string())?;
+            let (path, own) = (entry.path(), self.partial_path().join(entry.file_name()));
+            if path.is_file() && !own.exists() && is_left(&path) {
+                fs::remove_file(&path).with_context(|| path.display().to_string())?;
             }
         }
-        Ok(())
+        Ok(self.folder.persist()?)
     }
 }
 
 /// Whether a run writes a file of this name.
 pub fn is_of_a_run(name: &str) -> bool {
-    ["frames.csv", SUMMARY, "report.html", "bode.csv"].contains(&name) || is_of_waves(name)
+    let files = ["frames.csv", SUMMARY, "report.html", "bode.csv"];
+    files.contains(&name) || is_of_waves(name) || is_of_words(name)
 }
 
 fn is_of_waves(name: &str) -> bool {

@@ -31,3 +31,11 @@ pub fn bar(steps: Option<u64>, quiet: bool) -> ProgressBar {
         }
     }
 }
+
+/// Work whose length is not known; hidden where `quiet` or nobody looks.
+pub fn work(what: &'static str, quiet: bool) -> ProgressBar {
+    let bar = bar(None, quiet);
+    let template = "{spinner} {msg}, {elapsed}";
+    bar.set_style(ProgressStyle::with_template(template).expect("a valid template"));
+    bar.with_message(what)
+}

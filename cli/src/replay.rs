@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `hapticore replay`: recorded ADC samples through the core, in constant memory.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, VecDeque};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
@@ -10,12 +10,13 @@ use anyhow::{Context, Result, bail, ensure};
 use hapticore_contract::profile::Profile;
 use hapticore_host::profile::serving;
 use hapticore_host::{DeviceCalibration, Residual, SlotClock, residual};
-use hapticore_run::capture::{self, Adc, Described, Source};
+use hapticore_run::capture::{self, Adc, BROKEN, Cut, Described, Shape, Slots, Source};
 use hapticore_run::engine::{Signals, Slot};
-use hapticore_run::haptic::{self, Meter};
+use hapticore_run::haptic::Meter;
 use hapticore_run::record::{Provenance, Record, Row, Rows};
 use hapticore_run::session::Session;
-use hapticore_run::{calibrate, inputs, interrupt};
+use hapticore_run::wiring::Wiring;
+use hapticore_run::{calibrate, inputs, interrupt, silent};
 
 use crate::args::ReplayArgs;
 use crate::output::{Frames, Output, summary};
@@ -44,6 +45,8 @@ pub fn run(args: &ReplayArgs) -> Result<bool> {
         channels: args.channels.clone(),
         bits: args.bits,
         full_scale_v: args.full_scale_v,
+        sample_rate_hz: Some(device.device.sample_rate_hz),
+        truncated: args.truncated,
     };
     let mut source = capture::open(&args.capture, adc, &described)?;
     let pads = args.pads.unwrap_or(device.pads);
@@ -58,15 +61,20 @@ pub fn run(args: &ReplayArgs) -> Result<bool> {
             .map_or("the nominal calibration".into(), |path| path.display().to_string())
     };
     let mut replay = Replay::new(args, &profile, &device, &output).with_context(named)?;
-    let left = replay.run(source.as_mut(), args.core.json)?;
+    let mut slots = Slots::new(source.as_mut(), Shape::of(&profile), args.skip.unwrap_or(0))?;
+    let left = replay.run(&mut slots, args.core.json)?;
+    let of_slots = slots.notes();
     let mut record = replay.finish(name, &profile, args)?;
+    record.warnings.extend(of_slots);
     record.warnings.extend(calibration.is_none().then(|| uncalibrated(args)));
+    record.warnings.extend(other_pads(args, &device));
     record.warnings.extend(source.notes());
     record.provenance.calibration = calibration;
     output.write("summary.json", summary(&record))?;
     output.write("report.html", report::html(&record))?;
     let files = output.keep()?;
-    print_result(args, &record, left, &files);
+    let silent = silent::text(&profile, device.device.sample_rate_hz);
+    print_result(args, &record, (left, &silent), &files);
     Ok(true)
 }
 
@@ -82,6 +90,14 @@ fn uncalibrated(args: &ReplayArgs) -> String {
          terminals), not for the device that was recorded; --calibration FILE names its own",
         args.capture.display()
     )
+}
+
+fn other_pads(args: &ReplayArgs, device: &DeviceCalibration) -> Option<String> {
+    let pads = args.pads.filter(|pads| *pads != device.pads)?;
+    Some(format!(
+        "--pads {pads}: the calibration is of {} pads; where the recording has as many, every frame is of another pad than it names",
+        device.pads
+    ))
 }
 
 /// Checks that capture, calibration and profile are of one sample rate and one carrier.
@@ -112,11 +128,15 @@ struct Replay {
     frames: Frames,
     rows: Thinned,
     clock: SlotClock,
-    slot_codes: usize,
     blanking_codes: usize,
     channels: usize,
     meter: Meter,
-    sample_rate_hz: f64,
+    wiring: Wiring,
+    /// Flags of slots whose rows are still to come.
+    flags: VecDeque<Vec<String>>,
+    waiting: Vec<Row>,
+    /// That of all frames, once it is decided.
+    channels_flag: Option<Option<&'static str>>,
     pads: usize,
     slots: usize,
     start: Instant,
@@ -144,11 +164,13 @@ impl Replay {
             frames: Frames::create(output, None)?,
             rows: Thinned::default(),
             clock,
-            slot_codes: profile.slot.samples() as usize * channels,
             blanking_codes: profile.slot.blanking() as usize * channels,
             channels,
-            meter: Meter::default(),
-            sample_rate_hz: device.device.sample_rate_hz,
+            meter: Meter::new(profile, device.device.sample_rate_hz),
+            wiring: Wiring::new(profile, device, &calibration),
+            flags: VecDeque::new(),
+            waiting: Vec::new(),
+            channels_flag: None,
             pads: profile.pads as usize,
             slots: 0,
             start: Instant::now(),
@@ -156,70 +178,69 @@ impl Replay {
     }
 
     /// Runs all slots; the samples left over at the end.
-    fn run(&mut self, source: &mut dyn Source, quiet: bool) -> Result<usize> {
+    fn run(&mut self, slots: &mut Slots<'_>, quiet: bool) -> Result<usize> {
         let bar = progress::bar(None, quiet);
-        let mut codes = Vec::with_capacity(self.slot_codes);
-        while let Some(sampled) = source.row(&mut codes)? {
-            let pad = self.slots % self.pads;
-            if let Some(got) = sampled.pad.filter(|got| *got != pad) {
-                let slot = self.slots;
-                bail!(
-                    "{}: pad: expected {pad} in slot {slot} of a rotation of {}, got {got}",
-                    source.place(),
-                    self.pads
-                );
-            }
-            if codes.len() == self.slot_codes {
-                codes = self.slot(pad, codes)?;
-                bar.inc(1);
-            }
+        while let Some(cut) = slots.next_slot()? {
+            self.slot(cut)?;
+            bar.inc(1);
         }
-        let (samples, got) = (self.slot_codes / self.channels, codes.len() / self.channels);
         ensure!(
             self.slots > 0,
-            "{}: expected samples of one slot at least, {samples}, got {got}",
-            source.place()
+            "{}: expected samples of one slot at least, {}, got {}",
+            slots.place(),
+            slots.slot_samples(),
+            slots.left()
         );
         let last = self.session.finish();
         last.into_iter().try_for_each(|row| self.row(row))?;
+        self.write()?;
         bar.finish_and_clear();
-        Ok(codes.len() / self.channels)
+        Ok(slots.left())
     }
 
-    /// Takes a whole slot to the core; its buffer, emptied.
-    fn slot(&mut self, pad: usize, codes: Vec<i32>) -> Result<Vec<i32>> {
+    /// Takes a whole slot to the core.
+    fn slot(&mut self, Cut { pad, codes, is_broken }: Cut) -> Result<()> {
         interrupt::check()?;
-        self.meter.append(&codes, self.channels);
+        let mut flags = vec![BROKEN.to_string()];
+        if !is_broken {
+            self.meter.append((self.slots, pad), &codes, self.channels);
+            flags = self.wiring.window(&codes[self.blanking_codes..]);
+        }
+        self.flags.push_back(flags);
         let slot = Slot { pad, signals: Signals::Samples { codes, blanking: self.blanking_codes } };
         let row = self.session.slot(&slot, None);
         row.into_iter().try_for_each(|row| self.row(row))?;
         self.slots += 1;
-        match slot.signals {
-            Signals::Samples { mut codes, .. } => {
-                codes.clear();
-                Ok(codes)
-            }
-            Signals::Phasors { .. } => unreachable!("a capture has samples"),
-        }
-    }
-
-    fn row(&mut self, row: Row) -> Result<()> {
-        self.frames.row(&row)?;
-        self.rows.push(row);
         Ok(())
     }
 
-    /// Says where the core's window is too short for the haptic voltage that was recorded.
-    fn haptic_warning(&self, profile: &Profile) -> Option<String> {
-        let full_scale = 1.0 / profile.formats.adc.lsb();
-        let (Ok(frequency) | Err(frequency)) =
-            self.meter.frequency(full_scale)?.map_err(|samples| 1.0 / samples);
-        haptic::warning(profile, frequency * self.sample_rate_hz, self.sample_rate_hz)
+    fn row(&mut self, mut row: Row) -> Result<()> {
+        for flag in self.flags.pop_front().unwrap_or_default() {
+            add_flag(&mut row, &flag);
+        }
+        self.waiting.push(row);
+        if self.channels_flag.is_none() && !self.wiring.is_decided() {
+            return Ok(());
+        }
+        self.write()
+    }
+
+    /// Writes the rows that waited until order and gains of the channels could be judged.
+    fn write(&mut self) -> Result<()> {
+        let flag = *self.channels_flag.get_or_insert_with(|| self.wiring.flag());
+        for mut row in std::mem::take(&mut self.waiting) {
+            flag.into_iter().for_each(|flag| add_flag(&mut row, flag));
+            self.frames.row(&row)?;
+            self.rows.push(row);
+        }
+        Ok(())
     }
 
     fn finish(self, name: String, profile: &Profile, args: &ReplayArgs) -> Result<Record> {
         let of_table = self.residual.warning(residual::LIMIT_MM);
-        let warnings = self.haptic_warning(profile).into_iter().chain(of_table).collect();
+        let mut warnings: Vec<String> = self.wiring.notes();
+        warnings.extend(self.meter.warnings(profile));
+        warnings.extend(of_table);
         self.frames.finish()?;
         Ok(Record {
             title: format!("Replay of {}", args.capture.display()),
@@ -251,7 +272,19 @@ impl Replay {
     }
 }
 
-fn print_result(args: &ReplayArgs, record: &Record, left: usize, files: &[PathBuf]) {
+fn add_flag(row: &mut Row, flag: &str) {
+    if !row.flags.is_empty() {
+        row.flags.push('+');
+    }
+    row.flags.push_str(flag);
+}
+
+fn print_result(
+    args: &ReplayArgs,
+    record: &Record,
+    (left, silent): (usize, &str),
+    files: &[PathBuf],
+) {
     print::warnings(record);
     if args.core.json {
         console::print(format_args!("{}", summary(record)));
@@ -262,6 +295,7 @@ fn print_result(args: &ReplayArgs, record: &Record, left: usize, files: &[PathBu
     if left > 0 {
         say!("{left} samples at the end are no whole slot and were left out");
     }
+    say!("{silent}");
     print::finish(record, files);
 }
 

@@ -22,7 +22,7 @@ use rayon::prelude::*;
 
 use crate::args::{SimulateArgs, Waves};
 use crate::output::{Frames, OfScene, Output, is_of_a_run, summary};
-use crate::{console, folder, print, progress, report, say, stability, waves};
+use crate::{console, folder, print, progress, report, say, stability, waves, words};
 use hapticore_host::residual::{self, Residual};
 
 /// Below this the haptic voltage is off, V rms.
@@ -83,6 +83,7 @@ fn write(
     let (frames, report) = rayon::join(|| write_frames(&output, &record), report);
     frames.and(report)?;
     output.write("summary.json", summary(&record))?;
+    words::write(&output, &cases)?;
     let mut files = Vec::new();
     if let (Some(path), Some(recorder)) = (capture, recorder) {
         let calibration = capture::calibration_path(&path);

@@ -42,12 +42,16 @@ impl Placement {
         }
     }
 
-    /// The flags of a pad that was read at a place, or at none.
+    /// The flags of a pad that was read at a place, or at none. A core may serve more pads than the
+    /// device was calibrated with.
     pub fn flags(
         &mut self,
         pad: usize,
         at_mm: Option<[f64; 2]>,
     ) -> impl Iterator<Item = &'static str> {
+        if pad >= self.pads.len() {
+            self.pads.resize(pad + 1, None);
+        }
         self.pads[pad] = at_mm;
         let set =
             at_mm.map_or([false; 2], |at_mm| [self.at_edge(at_mm), self.touching(pad, at_mm)]);
@@ -116,6 +120,13 @@ mod tests {
         assert_eq!(flags(&mut placement, 2, Some([-1.0, 0.0])), "touching");
         assert_eq!(flags(&mut placement, 2, None), "");
         assert_eq!(flags(&mut placement, 0, Some([-1.0, 0.0])), "");
+    }
+
+    #[test]
+    fn a_pad_beyond_those_of_the_calibration_has_flags_too() {
+        let mut placement = placement(Some(30.0));
+        assert_eq!(flags(&mut placement, 7, Some([0.0, 0.0])), "");
+        assert_eq!(flags(&mut placement, 1, Some([0.0, 1.0])), "touching");
     }
 
     #[test]

@@ -59,9 +59,6 @@ impl Readout {
     }
 
     /// A measurement in physical units, and the names of its flags, joined by `+`.
-    ///
-    /// # Panics
-    /// If the device has no such pad.
     pub fn convert(&mut self, measurement: &Measurement) -> (Quantities, String) {
         let mut measured = self.units.quantities(measurement);
         if let Some(canceller) = self.canceller.as_mut().filter(|_| !measurement.flags.invalid) {
@@ -75,9 +72,6 @@ impl Readout {
     }
 
     /// A measurement as a row of `frames.csv`, in the order of [`COLUMNS`].
-    ///
-    /// # Panics
-    /// If the device has no such pad.
     pub fn row(&mut self, time_s: f64, measurement: &Measurement) -> [String; COLUMNS.len()] {
         let (measured, flags) = self.convert(measurement);
         let numbers = measured.values().map(|number| number.to_string());

@@ -7,7 +7,7 @@ use hapticore_hdl::format::Format;
 use hapticore_model::blocks::estimator::Calibration;
 use hapticore_protocol::{Constant, WordFormats};
 
-pub use hapticore_protocol::{CalibrationWords, ConstantWord};
+pub use hapticore_protocol::{CalibrationWords, ConstantWord, DriveWord, Setting};
 
 /// The formats of a calibration's words, of a core with these ports and no drive.
 ///

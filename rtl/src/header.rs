@@ -9,7 +9,7 @@ use hapticore_contract::profile::{Profile, ProfileError};
 use hapticore_model::blocks::core::Core;
 use hapticore_model::blocks::force_loop::ForceLoop;
 
-use hapticore_hdl::verilog::{Design, Heading};
+use hapticore_hdl::verilog::{Design, Heading, PREFIX};
 
 use crate::board::drive_output::{Converter, DriveOutput, STALE_MS, Wave};
 use crate::board::framing::digest;
@@ -22,6 +22,13 @@ pub const NAME: &str = "hapticore.vh";
 const FIELDS: [&str; Field::ALL.len()] =
     ["R_X", "R_Y", "X", "Y", "SHEET", "CAPACITANCE", "FORCE", "MEAN_SQUARE"];
 
+/// What the names of a profile's modules begin with, so that cores of two profiles may stand in one design: letters, digits
+/// and underscores of the profile's name.
+pub fn prefix(profile: &Profile) -> String {
+    let letter = |letter: char| if letter.is_ascii_alphanumeric() { letter } else { '_' };
+    format!("{PREFIX}_{}", profile.name.chars().map(letter).collect::<String>())
+}
+
 /// Prints the core of a profile, with its force controller where it has one, as `hapticore hdl
 /// --profile` does.
 ///
@@ -33,11 +40,12 @@ pub fn design(profile: &Profile) -> Design {
         command: format!("hapticore hdl --profile {}", profile.name),
         source: source(profile),
         interface: interface(&core, profile),
+        prefix: prefix(profile),
     };
     if let Some(control) = &profile.control {
         let force_loop = ForceLoop::try_new(profile).unwrap_or_else(|error| panic!("{error}"));
         heading.command += &format!(" --control {}", control.law.name());
-        heading.interface.extend(interface_of_loop(&force_loop));
+        heading.interface.extend(interface_of_loop(&force_loop, profile));
     }
     let netlist = netlist::of_profile(profile).unwrap_or_else(|error| panic!("{error}"));
     Design::print(&netlist, heading)
@@ -56,8 +64,8 @@ pub fn drive_output(
 ) -> Result<Design, ProfileError> {
     let output = DriveOutput::of_profile(profile, wave, converter, clock_hz)?;
     let interface = [
-        "- drive_valid, drive_pad, drive, serve, closed, *_fault: the outputs of hapticore_loop of these names; enable: not its clear.".to_owned(),
-        "- drives_clear: no drive word came in time, all channels go to zero; to the input of hapticore_loop of this name.".into(),
+        format!("- drive_valid, drive_pad, drive, serve, closed, *_fault: the outputs of {}_loop of these names; enable: not its clear.", prefix(profile)),
+        format!("- drives_clear: no drive word came in time, all channels go to zero; to the input of {}_loop of this name.", prefix(profile)),
         "- dac_*: pins of the converter; words are magnitudes, 0 is 0 V; dac_polarity: the sign of each channel's amplifier.".into(),
         "- dac_live: the converter is set up, and nothing is off; gate the high voltage with it.".into(),
         format!("- clock: {clock_hz} Hz; drive words that cease are zero after {STALE_MS} ms at most."),
@@ -69,12 +77,13 @@ pub fn drive_output(
         command: format!("hapticore hdl --profile {}{law} {options}", profile.name),
         source: source(profile),
         interface: interface.to_vec(),
+        prefix: prefix(profile),
     };
     Ok(Design::of(&output, heading))
 }
 
 /// What a user of the force loop must know besides.
-fn interface_of_loop(force_loop: &ForceLoop) -> Vec<String> {
+fn interface_of_loop(force_loop: &ForceLoop, profile: &Profile) -> Vec<String> {
     let mut lines = vec![
         format!("- drive_valid: a drive word, {} cycles after its slot's last strobe.", force_loop.latency()),
         "- target_write, target_pad, target_word: a pad's target, taken as its slot's estimate is given; a sign of life.".into(),
@@ -82,6 +91,10 @@ fn interface_of_loop(force_loop: &ForceLoop) -> Vec<String> {
         "- proportional, correction, full_drive, rail, slew, force_cap: taken as a slot's estimate is given.".into(),
         "- tick: one cycle every millisecond, of which a silent host is missed after so many; without ticks nothing is driven.".into(),
         "- clear, drives_clear, enable low, a fault: every drive is zero in the same cycle and begins at zero; clear takes targets and walls, too.".into(),
+        format!(
+            "- full_drive: one over MEAN_SQUARE at a drive of full scale V_drive: (V_adc/V_drive)²/{:.6}.",
+            profile.square_gain()
+        ),
         "- least_drive to most_force: of all pads, of valid estimates since extremes_read.".into(),
     ];
     if let Some(split_pad) = &force_loop.drives.split_pad {
@@ -124,6 +137,10 @@ fn interface(core: &Core, profile: &Profile) -> Vec<String> {
         let format = field.format(profile);
         lines.push(format!("  {index} {name:<12} {format} (fraction {})", format.frac));
     }
+    lines.push(format!(
+        "- MEAN_SQUARE: {:.6} times the mean of V²/V_adc², V the haptic voltage, V_adc the full scale of its ADC channel.",
+        profile.square_gain()
+    ));
     lines
 }
 

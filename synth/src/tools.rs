@@ -29,21 +29,6 @@ impl Tools {
         Ok(Tools { bin })
     }
 
-    /// Finds them for a test: where they are not there, it says so, and the test has nothing to do.
-    ///
-    /// # Panics
-    /// In CI (`CI=true`), where they are not there.
-    pub fn or_skip() -> Option<Tools> {
-        match Tools::find() {
-            Ok(tools) => Some(tools),
-            Err(error) => {
-                assert!(std::env::var("CI").as_deref() != Ok("true"), "{error}");
-                eprintln!("SKIPPED: {error}");
-                None
-            }
-        }
-    }
-
     /// A command with the tools before all others on its path.
     pub fn command(&self, program: &str) -> Command {
         let path = std::env::var_os("PATH").unwrap_or_default();

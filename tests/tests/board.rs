@@ -169,10 +169,11 @@ fn bench(
 }
 
 #[test]
+#[cfg_attr(
+    not(all(tool = "iverilog", tool = "vvp")),
+    ignore = "needs iverilog, vvp: ./test fetches what is missing"
+)]
 fn boards_tell_over_their_line_what_the_model_computes_from_what_their_adc_saw() {
-    if !tools::have(&["iverilog", "vvp"]) {
-        return;
-    }
     for target in Target::ALL {
         let profile = shortened(target);
         let (calibration, samples) = (calibration(&profile), samples(&profile));
@@ -187,9 +188,6 @@ fn boards_tell_over_their_line_what_the_model_computes_from_what_their_adc_saw()
 
 /// A board as it is, with the codes of `hockey`, returns what `simulate` makes of them.
 fn returns_what_simulate_gives(target: Target, simulator: Simulator) {
-    if !tools::have(&["iverilog", "vvp", "verilator", "g++"]) {
-        return;
-    }
     let profile = target.profile();
     let scene = inputs::scene("hockey", &[]).expect("bundled");
     let case = Case::new(&scene, 0, &profile, &[]).expect("a case");
@@ -216,11 +214,19 @@ fn returns_what_simulate_gives(target: Target, simulator: Simulator) {
 }
 
 #[test]
+#[cfg_attr(
+    not(all(tool = "iverilog", tool = "vvp", tool = "verilator", tool = "g++")),
+    ignore = "needs iverilog, vvp, verilator, g++: ./test fetches what is missing"
+)]
 fn icebreaker_returns_over_its_line_the_frames_that_simulate_gives() {
     returns_what_simulate_gives(Target::Icebreaker, Simulator::Verilator);
 }
 
 #[test]
+#[cfg_attr(
+    not(all(tool = "iverilog", tool = "vvp", tool = "verilator", tool = "g++")),
+    ignore = "needs iverilog, vvp, verilator, g++: ./test fetches what is missing"
+)]
 fn ulx3s_returns_over_its_line_the_frames_that_simulate_gives() {
     // The calibration alone takes ten million clocks.
     returns_what_simulate_gives(Target::Ulx3s, Simulator::Verilator);
@@ -237,10 +243,11 @@ fn tuning(control: &Control) -> Tuning {
 }
 
 #[test]
+#[cfg_attr(
+    not(all(tool = "verilator", tool = "g++")),
+    ignore = "needs verilator, g++: ./test fetches what is missing"
+)]
 fn ulx3s_gives_its_converter_the_drive_words_of_the_force_loop() {
-    if !tools::have(&["verilator", "g++"]) {
-        return;
-    }
     let (target, targets_n) = (Target::Ulx3s, [0.3, 0.8, 0.05, 0.5]);
     let plain = shortened(target);
     let control = Control::of(&plain, Law::Inverse);

@@ -29,7 +29,7 @@ use hapticore_tests::faults::campaign::{self, two_at_a_time};
 use hapticore_tests::faults::{Fault, Kind, Planted};
 use hapticore_tests::lockstep::verilator::{CompiledTrace, Start, Verilated};
 use hapticore_tests::lockstep::{Bench, Mismatch, Trace};
-use hapticore_tests::{stimulus, tools};
+use hapticore_tests::stimulus;
 
 /// Into how many parts the places of a module and kind are divided.
 const PARTS: usize = 3;
@@ -116,10 +116,11 @@ fn first_mismatch<'a>(
 }
 
 #[test]
+#[cfg_attr(
+    not(all(tool = "verilator", tool = "make", tool = "g++")),
+    ignore = "needs verilator, make, g++: ./test fetches what is missing"
+)]
 fn faults_of_each_kind_in_each_module_are_noticed() {
-    if !tools::have(&["verilator", "make", "g++"]) {
-        return;
-    }
     let bench = Bench::new("small");
     let planted = Planted::new(&bench.design);
     let of_core = |seed| {

@@ -75,6 +75,11 @@ fn lab_measurements() {
 }
 
 #[test]
+fn options_of_commands() {
+    hold("options", 2000);
+}
+
+#[test]
 fn packets() {
     hold("packets", 5000);
 }

@@ -32,10 +32,7 @@ fn gates(tools: &Tools, family: &str, design: &Design) -> String {
 }
 
 fn gates_run_what_the_model_runs(family: &str, profile: &str) {
-    let Some(tools) = Tools::or_skip() else { return };
-    if !tools::have(&["verilator", "make", "g++", "iverilog"]) {
-        return;
-    }
+    let tools = Tools::find().expect("what synth/tools fetches");
     let bench = Bench::new(profile);
     let top = format!("{}_gate", bench.design.top());
     let text = gates(&tools, family, &bench.design);
@@ -62,10 +59,7 @@ fn gates_close_the_loop_as_the_model_does(
     profile: &str,
     of: impl FnOnce(&Profile) -> Closed,
 ) {
-    let Some(tools) = Tools::or_skip() else { return };
-    if !tools::have(&["verilator", "make", "g++", "iverilog"]) {
-        return;
-    }
+    let tools = Tools::find().expect("what synth/tools fetches");
     let (design, trace) = of(&Profile::bundled(profile).expect("bundled")).record();
     let top = format!("{}_gate", design.top());
     let text = gates(&tools, family, &design);
@@ -78,12 +72,32 @@ fn gates_close_the_loop_as_the_model_does(
 
 /// Not on iCE40: walls fit no such part.
 #[test]
+#[cfg_attr(
+    not(all(
+        tool = "synth/tools",
+        tool = "verilator",
+        tool = "make",
+        tool = "g++",
+        tool = "iverilog"
+    )),
+    ignore = "needs synth/tools, verilator, make, g++, iverilog: ./test fetches what is missing"
+)]
 fn ecp5_gates_run_a_wall_as_the_model_does() {
     gates_close_the_loop_as_the_model_does("ecp5", "small", Closed::at_a_wall);
 }
 
 /// A force table is of whole pads: walls have none.
 #[test]
+#[cfg_attr(
+    not(all(
+        tool = "synth/tools",
+        tool = "verilator",
+        tool = "make",
+        tool = "g++",
+        tool = "iverilog"
+    )),
+    ignore = "needs synth/tools, verilator, make, g++, iverilog: ./test fetches what is missing"
+)]
 fn ecp5_gates_close_the_force_loop_with_a_table_as_the_model_does() {
     let target = "{ timeline = [[0, 0.2], [0.0015, 0.2], [0.0015, 0.6]] }".to_string();
     let force = ("control.force".to_string(), "\"table\"".to_string());
@@ -94,16 +108,46 @@ fn ecp5_gates_close_the_force_loop_with_a_table_as_the_model_does() {
 }
 
 #[test]
+#[cfg_attr(
+    not(all(
+        tool = "synth/tools",
+        tool = "verilator",
+        tool = "make",
+        tool = "g++",
+        tool = "iverilog"
+    )),
+    ignore = "needs synth/tools, verilator, make, g++, iverilog: ./test fetches what is missing"
+)]
 fn ice40_gates_run_what_the_model_runs_small() {
     gates_run_what_the_model_runs("ice40", "small");
 }
 
 #[test]
+#[cfg_attr(
+    not(all(
+        tool = "synth/tools",
+        tool = "verilator",
+        tool = "make",
+        tool = "g++",
+        tool = "iverilog"
+    )),
+    ignore = "needs synth/tools, verilator, make, g++, iverilog: ./test fetches what is missing"
+)]
 fn ecp5_gates_run_what_the_model_runs_small() {
     gates_run_what_the_model_runs("ecp5", "small");
 }
 
 #[test]
+#[cfg_attr(
+    not(all(
+        tool = "synth/tools",
+        tool = "verilator",
+        tool = "make",
+        tool = "g++",
+        tool = "iverilog"
+    )),
+    ignore = "needs synth/tools, verilator, make, g++, iverilog: ./test fetches what is missing"
+)]
 fn ecp5_gates_run_what_the_model_runs_standard() {
     gates_run_what_the_model_runs("ecp5", "standard");
 }

@@ -20,7 +20,7 @@ use hapticore_tests::force_loop::Closed;
 use hapticore_tests::lockstep::verilator::{Start, Verilated, Version};
 use hapticore_tests::lockstep::{Bench, Mismatch, Trace, cxxrtl, icarus};
 use hapticore_tests::peripherals::{Alone, blocks_of_a_drive};
-use hapticore_tests::{stimulus, tools};
+use hapticore_tests::stimulus;
 use std::collections::BTreeSet;
 use std::time::Instant;
 
@@ -28,9 +28,6 @@ use std::time::Instant;
 const CLOCKS: usize = 1_000_000;
 
 fn verilator_runs_what_the_model_runs(profile: &str) {
-    if !tools::have(&["verilator", "make", "g++"]) {
-        return;
-    }
     let bench = Bench::new(profile);
     let verilated =
         Verilated::new(bench.design.top(), &bench.design.ports, &bench.design.text(), Start::Zero);
@@ -52,20 +49,29 @@ fn verilator_runs_what_the_model_runs(profile: &str) {
 }
 
 #[test]
+#[cfg_attr(
+    not(all(tool = "verilator", tool = "make", tool = "g++")),
+    ignore = "needs verilator, make, g++: ./test fetches what is missing"
+)]
 fn verilator_runs_what_the_model_runs_small() {
     verilator_runs_what_the_model_runs("small");
 }
 
 #[test]
+#[cfg_attr(
+    not(all(tool = "verilator", tool = "make", tool = "g++")),
+    ignore = "needs verilator, make, g++: ./test fetches what is missing"
+)]
 fn verilator_runs_what_the_model_runs_standard() {
     verilator_runs_what_the_model_runs("standard");
 }
 
 #[test]
+#[cfg_attr(
+    not(all(tool = "iverilog", tool = "vvp")),
+    ignore = "needs iverilog, vvp: ./test fetches what is missing"
+)]
 fn icarus_runs_what_the_model_runs() {
-    if !tools::have(&["iverilog", "vvp"]) {
-        return;
-    }
     for name in ["small", "standard"] {
         let bench = Bench::new(name);
         for stimulus in
@@ -96,28 +102,32 @@ fn other_simulators_run_what_the_model_runs(profile: &str) {
             "{profile}: {clocks} clocks equal in {simulator}, {seconds:.1} s with compilation"
         );
     };
-    if tools::have(&Version::Current.commands()) {
-        let start = Instant::now();
-        let verilated = Verilated::with(Version::Current, top, ports, &text, Start::Zero);
-        for trace in &traces {
-            verilated.check(trace).unwrap_or_else(|found| panic!("{profile}, Verilator: {found}"));
-        }
-        say(&Version::Current.name(), start);
+    let start = Instant::now();
+    let verilated = Verilated::with(Version::Current, top, ports, &text, Start::Zero);
+    for trace in &traces {
+        verilated.check(trace).unwrap_or_else(|found| panic!("{profile}, Verilator: {found}"));
     }
-    if tools::have(&cxxrtl::COMMANDS) {
-        let start = Instant::now();
-        let result = cxxrtl::check(top, &text, &traces);
-        result.unwrap_or_else(|found| panic!("{profile}, CXXRTL: {found}"));
-        say("CXXRTL", start);
-    }
+    say(&Version::Current.name(), start);
+    let start = Instant::now();
+    let result = cxxrtl::check(top, &text, &traces);
+    result.unwrap_or_else(|found| panic!("{profile}, CXXRTL: {found}"));
+    say("CXXRTL", start);
 }
 
 #[test]
+#[cfg_attr(
+    not(all(tool = "verilator-current", tool = "make", tool = "g++", tool = "yosys")),
+    ignore = "needs verilator-current, make, g++, yosys: ./test fetches what is missing"
+)]
 fn other_simulators_run_what_the_model_runs_small() {
     other_simulators_run_what_the_model_runs("small");
 }
 
 #[test]
+#[cfg_attr(
+    not(all(tool = "verilator-current", tool = "make", tool = "g++", tool = "yosys")),
+    ignore = "needs verilator-current, make, g++, yosys: ./test fetches what is missing"
+)]
 fn other_simulators_run_what_the_model_runs_standard() {
     other_simulators_run_what_the_model_runs("standard");
 }
@@ -126,22 +136,28 @@ fn other_simulators_run_what_the_model_runs_standard() {
 fn in_each_simulator(verilog: &str, top: &str, trace: &Trace) -> Vec<(String, Option<Mismatch>)> {
     let mut results = Vec::new();
     for version in [Version::Distribution, Version::Current] {
-        if tools::have(&version.commands()) {
-            let verilated = Verilated::with(version, top, &trace.ports, verilog, Start::Zero);
-            results.push((version.name(), verilated.check(trace).err()));
-        }
+        let verilated = Verilated::with(version, top, &trace.ports, verilog, Start::Zero);
+        results.push((version.name(), verilated.check(trace).err()));
     }
-    if tools::have(&["iverilog", "vvp"]) {
-        results.push(("Icarus".into(), icarus::check(top, verilog, trace).err()));
-    }
-    if tools::have(&cxxrtl::COMMANDS) {
-        let result = cxxrtl::check(top, verilog, std::slice::from_ref(trace));
-        results.push(("CXXRTL".into(), result.err()));
-    }
+    results.push(("Icarus".into(), icarus::check(top, verilog, trace).err()));
+    let result = cxxrtl::check(top, verilog, std::slice::from_ref(trace));
+    results.push(("CXXRTL".into(), result.err()));
     results
 }
 
 #[test]
+#[cfg_attr(
+    not(all(
+        tool = "verilator",
+        tool = "make",
+        tool = "g++",
+        tool = "verilator-current",
+        tool = "iverilog",
+        tool = "vvp",
+        tool = "yosys"
+    )),
+    ignore = "needs verilator, make, g++, verilator-current, iverilog, vvp, yosys: ./test fetches what is missing"
+)]
 fn each_simulator_notices_a_mutant_at_the_same_clock() {
     let u = hapticore_hdl::format::Format::unsigned;
     let block = Divider::new(u(12, 8), u(11, 7), u(10, 8));
@@ -164,10 +180,11 @@ fn each_simulator_notices_a_mutant_at_the_same_clock() {
 
 /// CXXRTL's assertions are on: an address beyond the words ends the program.
 #[test]
+#[cfg_attr(
+    not(all(tool = "yosys", tool = "g++")),
+    ignore = "needs yosys, g++: ./test fetches what is missing"
+)]
 fn cxxrtl_stops_at_an_address_beyond_a_memory() {
-    if !tools::have(&cxxrtl::COMMANDS) {
-        return;
-    }
     let mut profile = Profile::bundled("small").expect("bundled");
     profile.haptic.windows = 4;
     let block = HapticVoltage::try_new(&profile).unwrap();
@@ -192,10 +209,11 @@ fn with_force_table(name: &str) -> Bench {
 }
 
 #[test]
+#[cfg_attr(
+    not(all(tool = "verilator", tool = "make", tool = "g++")),
+    ignore = "needs verilator, make, g++: ./test fetches what is missing"
+)]
 fn verilator_runs_a_force_table_as_the_model_does() {
-    if !tools::have(&["verilator", "make", "g++"]) {
-        return;
-    }
     for name in ["small", "standard"] {
         let bench = with_force_table(name);
         let (top, ports, text) = (bench.design.top(), &bench.design.ports, bench.design.text());
@@ -214,10 +232,11 @@ fn verilator_runs_a_force_table_as_the_model_does() {
 }
 
 #[test]
+#[cfg_attr(
+    not(all(tool = "iverilog", tool = "vvp")),
+    ignore = "needs iverilog, vvp: ./test fetches what is missing"
+)]
 fn icarus_runs_a_force_table_as_the_model_does() {
-    if !tools::have(&["iverilog", "vvp"]) {
-        return;
-    }
     let bench = with_force_table("small");
     let trace = bench.record(stimulus::scene(&bench.profile, "hockey", 2));
     if let Err(mismatch) = icarus::check(bench.design.top(), &bench.design.text(), &trace) {
@@ -234,10 +253,11 @@ fn with_terminals(terminals: usize) -> Bench {
 }
 
 #[test]
+#[cfg_attr(
+    not(all(tool = "iverilog", tool = "vvp")),
+    ignore = "needs iverilog, vvp: ./test fetches what is missing"
+)]
 fn icarus_runs_what_the_model_runs_of_other_numbers_of_terminals() {
-    if !tools::have(&["iverilog", "vvp"]) {
-        return;
-    }
     for terminals in [3, 8, 16] {
         let bench = with_terminals(terminals);
         assert_eq!(bench.profile.channels(), terminals + 2);
@@ -251,10 +271,11 @@ fn icarus_runs_what_the_model_runs_of_other_numbers_of_terminals() {
 /// Squares of every pad in turn, and now and then `clear`: bundled profiles have one window, and
 /// print nothing of this.
 #[test]
+#[cfg_attr(
+    not(all(tool = "iverilog", tool = "vvp")),
+    ignore = "needs iverilog, vvp: ./test fetches what is missing"
+)]
 fn icarus_runs_a_mean_over_windows_as_the_model_does() {
-    if !tools::have(&["iverilog", "vvp"]) {
-        return;
-    }
     let mut profile = Profile::bundled("small").expect("bundled");
     profile.haptic.windows = 4;
     let block = HapticVoltage::try_new(&profile).unwrap();
@@ -276,10 +297,11 @@ fn icarus_runs_a_mean_over_windows_as_the_model_does() {
 
 /// The plant and the loop together: a step of the target, and the clocks in which the force follows.
 #[test]
+#[cfg_attr(
+    not(all(tool = "verilator", tool = "make", tool = "g++")),
+    ignore = "needs verilator, make, g++: ./test fetches what is missing"
+)]
 fn verilator_closes_the_force_loop_as_the_model_does() {
-    if !tools::have(&["verilator", "make", "g++"]) {
-        return;
-    }
     // In slots of 250 µs an estimate runs on within the next window.
     let own = ["390", "600"];
     for (name, force, [settle, window]) in [
@@ -308,10 +330,11 @@ fn verilator_closes_the_force_loop_as_the_model_does() {
 
 /// Plant, core and wall together: a pad is pushed into the wall, which holds it, and drawn out.
 #[test]
+#[cfg_attr(
+    not(all(tool = "verilator", tool = "make", tool = "g++")),
+    ignore = "needs verilator, make, g++: ./test fetches what is missing"
+)]
 fn verilator_runs_a_wall_as_the_model_does() {
-    if !tools::have(&["verilator", "make", "g++"]) {
-        return;
-    }
     for name in ["small", "standard"] {
         runs_a_wall(name, &Profile::bundled(name).expect("bundled"));
     }
@@ -330,10 +353,11 @@ fn runs_a_wall(name: &str, profile: &Profile) {
 
 /// A pad that is split in four, in the corner of two walls.
 #[test]
+#[cfg_attr(
+    not(all(tool = "verilator", tool = "make", tool = "g++")),
+    ignore = "needs verilator, make, g++: ./test fetches what is missing"
+)]
 fn verilator_runs_walls_along_both_axes_as_the_model_does() {
-    if !tools::have(&["verilator", "make", "g++"]) {
-        return;
-    }
     let (design, trace) =
         Closed::in_a_corner(&Profile::bundled("small").expect("bundled")).record();
     assert!(of_port(&trace, "drive").into_iter().any(|drive| drive > 0), "the walls hold the pad");
@@ -357,10 +381,11 @@ fn driven(trace: &Trace) -> Vec<(i64, i64)> {
 
 /// The drive words of a wall reach the pins of a converter, with the polarity of their slots.
 #[test]
+#[cfg_attr(
+    not(all(tool = "verilator", tool = "make", tool = "g++")),
+    ignore = "needs verilator, make, g++: ./test fetches what is missing"
+)]
 fn verilator_drives_a_converter_as_the_model_does() {
-    if !tools::have(&["verilator", "make", "g++"]) {
-        return;
-    }
     let mut profile = Profile::bundled("standard").expect("bundled");
     let (_, of_loop) = Closed::at_a_wall(&profile).record();
     profile.control = Some(Control::of(&profile, Law::Inverse));
@@ -421,10 +446,11 @@ fn of_port(trace: &Trace, name: &str) -> Vec<i64> {
 
 /// Each law, its operands anywhere.
 #[test]
+#[cfg_attr(
+    not(all(tool = "iverilog", tool = "vvp")),
+    ignore = "needs iverilog, vvp: ./test fetches what is missing"
+)]
 fn icarus_runs_each_law_of_the_controller_as_the_model_does() {
-    if !tools::have(&["iverilog", "vvp"]) {
-        return;
-    }
     for name in ["small", "standard"] {
         for law in [Law::Open, Law::Proportional, Law::Integral, Law::Inverse] {
             let mut profile = Profile::bundled(name).expect("bundled");
@@ -442,10 +468,11 @@ fn icarus_runs_each_law_of_the_controller_as_the_model_does() {
 
 /// Controller and walls of each law, their operands anywhere.
 #[test]
+#[cfg_attr(
+    not(all(tool = "iverilog", tool = "vvp")),
+    ignore = "needs iverilog, vvp: ./test fetches what is missing"
+)]
 fn icarus_runs_drives_as_the_model_does() {
-    if !tools::have(&["iverilog", "vvp"]) {
-        return;
-    }
     let walls = [None, Some(profile::Wall::A), Some(profile::Wall::B), None];
     let quadrants = (Law::Inverse, Some(profile::Wall::QUADRANTS));
     for (law, wall) in Law::ALL.into_iter().zip(walls).chain([quadrants]) {
@@ -591,30 +618,30 @@ fn wall(profile: &str, rule: profile::Wall) -> (Design, Trace) {
 }
 
 #[test]
+#[cfg_attr(
+    not(all(tool = "iverilog", tool = "vvp", tool = "verilator", tool = "make", tool = "g++")),
+    ignore = "needs iverilog, vvp, verilator, make, g++: ./test fetches what is missing"
+)]
 fn both_simulators_run_a_wall_as_the_model_does() {
     for (profile, rule) in [("small", profile::Wall::B), ("standard", profile::Wall::A)] {
         let (design, trace) = wall(profile, rule);
-        if tools::have(&["iverilog", "vvp"])
-            && let Err(mismatch) = icarus::check(design.top(), &design.text(), &trace)
-        {
+        if let Err(mismatch) = icarus::check(design.top(), &design.text(), &trace) {
             panic!("{profile}, Icarus: {mismatch}");
         }
-        if tools::have(&["verilator", "make", "g++"]) {
-            let verilated =
-                Verilated::new(design.top(), &design.ports, &design.text(), Start::Zero);
-            if let Err(mismatch) = verilated.check(&trace) {
-                panic!("{profile}, Verilator: {mismatch}");
-            }
+        let verilated = Verilated::new(design.top(), &design.ports, &design.text(), Start::Zero);
+        if let Err(mismatch) = verilated.check(&trace) {
+            panic!("{profile}, Verilator: {mismatch}");
         }
         println!("{profile}: {} clocks equal", trace.clocks());
     }
 }
 
 #[test]
+#[cfg_attr(
+    not(all(tool = "iverilog", tool = "vvp")),
+    ignore = "needs iverilog, vvp: ./test fetches what is missing"
+)]
 fn blocks_of_a_board_with_a_drive_run_as_in_the_model() {
-    if !tools::have(&["iverilog", "vvp"]) {
-        return;
-    }
     for Alone { design, trace } in blocks_of_a_drive(Target::Ulx3s) {
         if let Err(mismatch) = icarus::check(design.top(), &design.text(), &trace) {
             panic!("{}: {mismatch:?}", design.top());

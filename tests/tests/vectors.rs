@@ -44,8 +44,28 @@ fn verilog() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../rtl/verilog")
 }
 
+/// A bench of the vectors, and what it is compiled and run with.
+struct Users {
+    folder: &'static str,
+    top: &'static str,
+    bench: &'static str,
+    options: &'static [&'static str],
+    /// What the names of its vectors begin with.
+    vectors: &'static str,
+}
+
+const SMALL: Users =
+    Users { folder: "small", top: "bench", bench: "bench.v", options: &[], vectors: "" };
+const LOOP: Users = Users {
+    folder: "loop",
+    top: "loop_bench",
+    bench: "loop_bench.v",
+    options: &["-DLOOP=hapticore_loop_loop", "-DWALLS"],
+    vectors: "loop_",
+};
+
 /// The bench around a design, compiled.
-fn compiled(design: &str) -> tempfile::TempDir {
+fn compiled(users: &Users, design: &str) -> tempfile::TempDir {
     let folder = tempfile::tempdir().expect("a folder");
     fs::write(folder.path().join("design.v"), design).expect("written");
     let mut verilator = Command::new("verilator");
@@ -61,10 +81,13 @@ fn compiled(design: &str) -> tempfile::TempDir {
         "-j",
         "2",
     ]);
-    verilator.args(["--top-module", "bench", "--Mdir", ".", "-o", "bench", "design.v"]);
-    tools::run(verilator.arg(verilog().join("cocotb/bench.v")), folder.path());
+    verilator.args(["--top-module", users.top, "--Mdir", ".", "-o", "bench", "design.v"]);
+    verilator.args(users.options).arg(format!("-I{}", verilog().join(users.folder).display()));
+    tools::run(verilator.arg(verilog().join("cocotb").join(users.bench)), folder.path());
     for file in fs::read_dir(verilog().join("vectors")).expect("the vectors").flatten() {
-        fs::copy(file.path(), folder.path().join(file.file_name())).expect("a file");
+        let name = file.file_name().into_string().expect("a name");
+        let Some(name) = name.strip_prefix(users.vectors) else { continue };
+        fs::copy(file.path(), folder.path().join(name)).expect("a file");
     }
     folder
 }
@@ -78,10 +101,11 @@ fn passes(bench: &Path, fault: usize) -> bool {
 }
 
 #[test]
+#[cfg_attr(
+    not(all(tool = "verilator", tool = "make", tool = "g++")),
+    ignore = "needs verilator, make, g++: ./test fetches what is missing"
+)]
 fn faults_in_the_printed_text_are_noticed_by_the_vectors() {
-    if !tools::have(&["verilator", "make", "g++"]) {
-        return;
-    }
     let design = Bench::new("small").design;
     let faults = Planted::with(&design, &|_| false).faults;
     let chosen = chosen(&faults);
@@ -90,7 +114,7 @@ fn faults_in_the_printed_text_are_noticed_by_the_vectors() {
         chosen.into_iter().step_by(if campaign::all() { 1 } else { EACH }).collect();
 
     let planted = Planted::with(&design, &|number| tried.contains(&number));
-    let bench = compiled(&planted.verilog);
+    let bench = compiled(&SMALL, &planted.verilog);
     assert!(passes(bench.path(), 0), "without a fault");
     let passed = two_at_a_time(&tried, |&number| passes(bench.path(), number));
     let survivors = tried.iter().zip(&passed).filter(|(_, passed)| **passed);
@@ -114,4 +138,94 @@ fn faults_in_the_printed_text_are_noticed_by_the_vectors() {
     let stale: Vec<_> =
         none.iter().filter(|listed| noticed(listed) || !places.contains(**listed)).collect();
     assert!(stale.is_empty(), "noticed after all, or no place any more: {stale:#?}");
+}
+
+/// What wakes a fault.
+const HEAD: &str =
+    "\n    integer fault;\n    initial if (!$value$plusargs(\"fault=%d\", fault)) fault = 0;\n";
+
+/// Where `clear` acts in the printed text, each number of a fault without it: what an instance is given, what the multiplexer's
+/// registers take, what the pace keeps.
+fn without_clear(users: &Users) -> (String, Vec<String>) {
+    let (mut text, mut faults) = (String::new(), Vec::new());
+    let files = fs::read_dir(verilog().join(users.folder)).expect("the Verilog").flatten();
+    let mut paths: Vec<_> = files.map(|file| file.path()).collect();
+    paths.retain(|path| path.extension().is_some_and(|extension| extension == "v"));
+    paths.sort();
+    for path in paths {
+        let module = path.file_stem().expect("a name").to_string_lossy().into_owned();
+        let (mut clears, known) = (false, faults.len());
+        let mut body = String::new();
+        for line in fs::read_to_string(&path).expect("a module").lines() {
+            let mut fault = |line: &str| {
+                faults.push(format!("{module}: {}", line.trim()));
+                faults.len()
+            };
+            clears = (clears || line.trim() == "if (clear) begin") && !line.contains("end else");
+            let changed = if line.contains(".clear(clear)") {
+                line.replace("(clear)", &format!("(clear & fault != {})", fault(line)))
+            } else if clears && line.contains("<=") {
+                format!("if (fault != {}) {line}", fault(line))
+            } else if line.contains("<=") && line.contains("not_clear") {
+                line.replace("not_clear", &format!("(not_clear | fault == {})", fault(line)))
+            } else {
+                line.to_owned()
+            };
+            body += &(changed + "\n");
+        }
+        text += &if faults.len() > known {
+            body.replacen("\n);\n", &format!("\n);\n{HEAD}"), 1)
+        } else {
+            body
+        };
+    }
+    (text, faults)
+}
+
+/// Faults without which nothing changes: flags that are about a sample, when there is none, and a port that nothing reads.
+const EQUIVALENT: [&str; 5] = [
+    "restart <= 1'd0;",
+    "integrate <= 1'd0;",
+    "first <= 1'd0;",
+    "last <= 1'd0;",
+    "_estimator: .clear(clear),",
+];
+
+/// A clear that does not reach a register keeps what was there: the next pad, a count, a window.
+fn check_clears(users: &Users) {
+    let (text, faults) = without_clear(users);
+    let bench = compiled(users, &text);
+    assert!(passes(bench.path(), 0), "without a fault");
+    let numbers: Vec<usize> = (1..=faults.len()).collect();
+    let passed = two_at_a_time(&numbers, |&number| passes(bench.path(), number));
+    let missed: Vec<_> =
+        faults.iter().zip(passed).filter_map(|(fault, passed)| passed.then_some(fault)).collect();
+    let is_equivalent = |fault: &&&String| EQUIVALENT.iter().any(|none| fault.ends_with(none));
+    let open: Vec<_> = missed.iter().filter(|fault| !is_equivalent(fault)).collect();
+    println!(
+        "{}: {} of {} clears noticed",
+        users.folder,
+        faults.len() - missed.len(),
+        faults.len()
+    );
+    assert!(faults.len() >= 14, "{faults:#?}");
+    assert!(open.is_empty(), "not noticed: {open:#?}");
+}
+
+#[test]
+#[cfg_attr(
+    not(all(tool = "verilator", tool = "make", tool = "g++")),
+    ignore = "needs verilator, make, g++: ./test fetches what is missing"
+)]
+fn a_clear_that_is_missing_in_the_core_is_noticed() {
+    check_clears(&SMALL);
+}
+
+#[test]
+#[cfg_attr(
+    not(all(tool = "verilator", tool = "make", tool = "g++")),
+    ignore = "needs verilator, make, g++: ./test fetches what is missing"
+)]
+fn a_clear_that_is_missing_in_the_force_loop_is_noticed() {
+    check_clears(&LOOP);
 }

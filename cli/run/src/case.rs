@@ -403,6 +403,11 @@ impl Case<'_> {
         Ok(self.tuned.get_or_init(|| tuned).clone())
     }
 
+    /// The tuning that the case was run with, where the scene has a controller and the case has been run.
+    pub fn ran_with(&self) -> Option<&Tuning> {
+        self.tuned.get()?.as_ref().map(|(_, tuning)| tuning)
+    }
+
     fn tune(&self, plant: &Plant) -> Result<Option<(Gains, Tuning)>> {
         let (Some(plan), Some(control)) = (self.plan(), &self.profile.control) else {
             return Ok(None);

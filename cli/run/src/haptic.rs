@@ -24,8 +24,29 @@ const TOLERANCE: f64 = 0.01;
 /// Frequencies that are looked at on either side, up to the tolerance.
 const POINTS: i32 = 32;
 
-/// Samples that a frequency is measured from.
-const SAMPLES: usize = 1 << 17;
+/// Slots of all pads that tones are measured from, and of each pad at least.
+const SLOTS: usize = 192;
+
+/// See [`SLOTS`].
+const FEWEST_SLOTS: usize = 6;
+
+/// Pads that are listened to: what more there are is like these.
+const MOST_PADS: usize = 16;
+
+/// Points of a voltage in a window, at least.
+const POINTS_PER_WINDOW: usize = 32;
+
+/// Periods within a window beyond which no voltage is slow.
+const HIGHEST_PERIODS: f64 = 8.0;
+
+/// Periods within what was listened to, at least.
+const SLOWEST: f64 = 0.7;
+
+/// Frequencies that are tried at most.
+const MOST_STEPS: usize = 30_000;
+
+/// Tones that are told apart in a voltage.
+const TONES: usize = 2;
 
 /// Alternating voltages below this part of full scale are noise.
 const LEAST: f64 = 0.005;
@@ -93,58 +114,189 @@ fn whole_period(profile: &Profile, haptic_hz: f64, sample_rate_hz: f64) -> u64 {
     step.saturating_mul((sample_rate_hz / haptic_hz / step as f64).round().max(1.0) as u64)
 }
 
-/// Measures the frequency of the haptic channel of a capture, from its first samples.
-#[derive(Debug, Default)]
+/// The tones of the haptic voltage of each pad of a recording, from its first slots.
+///
+/// A pad's voltage is known in its own slots only, so a sine is fitted to all of them at once, at
+/// each frequency, by least squares: `y(t) = a·cos ωt + b·sin ωt`.
+#[derive(Debug)]
 pub struct Meter {
-    codes: Vec<i32>,
+    rate_hz: f64,
+    bin: usize,
+    slots: usize,
+    pads: Vec<Listened>,
+}
+
+/// What was recorded of a pad's haptic voltage.
+#[derive(Debug, Clone, Default)]
+struct Listened {
+    slots: usize,
+    /// Times, s, and means over a bin of samples.
+    points: Vec<[f64; 2]>,
+    /// Sums over all samples: number, codes, squares.
+    sums: [f64; 3],
+}
+
+/// A sine in a voltage.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Tone {
+    hz: f64,
+    /// Its part of the alternating power.
+    share: f64,
 }
 
 impl Meter {
-    /// Appends the codes of a slot, all channels of an instant after the other, the haptic voltage
+    /// Of a core of the profile.
+    pub fn new(profile: &Profile, sample_rate_hz: f64) -> Self {
+        let pads = (profile.pads as usize).min(MOST_PADS);
+        Meter {
+            rate_hz: sample_rate_hz,
+            bin: (profile.slot.integrate as usize / POINTS_PER_WINDOW).max(1),
+            slots: (SLOTS / profile.pads as usize).max(FEWEST_SLOTS),
+            pads: vec![Listened::default(); pads],
+        }
+    }
+
+    /// Takes the codes of a slot, all channels of an instant after the other, the haptic voltage
     /// last.
-    pub fn append(&mut self, codes: &[i32], channels: usize) {
-        let free = SAMPLES - self.codes.len();
-        self.codes.extend(codes.iter().skip(channels - 1).step_by(channels).take(free));
+    pub fn append(&mut self, (slot, pad): (usize, usize), codes: &[i32], channels: usize) {
+        let Some(listened) = self.pads.get_mut(pad).filter(|pad| pad.slots < self.slots) else {
+            return;
+        };
+        let start_s = (slot * (codes.len() / channels)) as f64 / self.rate_hz;
+        let samples: Vec<f64> = codes
+            .iter()
+            .skip(channels - 1)
+            .step_by(channels)
+            .map(|code| f64::from(*code))
+            .collect();
+        for (index, bin) in samples.chunks_exact(self.bin).enumerate() {
+            let middle = (index as f64 + 0.5) * self.bin as f64;
+            let mean = bin.iter().sum::<f64>() / self.bin as f64;
+            listened.points.push([start_s + middle / self.rate_hz, mean]);
+        }
+        for sample in samples {
+            listened.sums[0] += 1.0;
+            listened.sums[1] += sample;
+            listened.sums[2] += sample * sample;
+        }
+        listened.slots += 1;
     }
 
-    /// The frequency in periods a sample; the period is longer than was listened for where it is
-    /// `Err`, which says for how long. None where the voltage does not alternate.
-    pub fn frequency(&self, full_scale: f64) -> Option<Result<f64, f64>> {
-        let count = self.codes.len() as f64;
-        let mean = self.codes.iter().map(|code| f64::from(*code)).sum::<f64>() / count;
-        let square =
-            self.codes.iter().map(|code| (f64::from(*code) - mean).powi(2)).sum::<f64>() / count;
-        let rms = square.sqrt();
-        if rms.is_nan() || rms < LEAST * full_scale {
-            return None;
-        }
-        let rises = self.rises(mean, rms / 2.0);
-        match (rises.first(), rises.last()) {
-            (Some(first), Some(last)) if last > first => {
-                Some(Ok((rises.len() - 1) as f64 / (last - first) as f64))
+    /// A warning for each slow voltage, with the pads that have it.
+    pub fn warnings(&self, profile: &Profile) -> Vec<String> {
+        let highest_hz = HIGHEST_PERIODS * self.rate_hz / profile.slot.integrate as f64;
+        let full_scale = 1.0 / profile.formats.adc.lsb();
+        let mut slow: Vec<(f64, String, Vec<usize>)> = Vec::new();
+        for (pad, listened) in self.pads.iter().enumerate() {
+            let tones = listened.tones(LEAST * full_scale, highest_hz);
+            let off = |tone: &Tone| {
+                tone.share * error(profile, profile.haptic.windows, tone.hz, self.rate_hz)
+            };
+            let worst = tones
+                .iter()
+                .max_by(|a, b| off(a).total_cmp(&off(b)))
+                .filter(|tone| off(tone) > WORTH_A_WORD);
+            let Some((hz, text)) =
+                worst.and_then(|tone| Some((tone.hz, warning(profile, tone.hz, self.rate_hz)?)))
+            else {
+                continue;
+            };
+            match slow.iter_mut().find(|(other, ..)| (other / hz - 1.0).abs() < 2.0 * TOLERANCE) {
+                Some((.., pads)) => pads.push(pad),
+                None => slow.push((hz, text, vec![pad])),
             }
-            _ => Some(Err(count)),
         }
+        let names =
+            |pads: &[usize]| pads.iter().map(usize::to_string).collect::<Vec<_>>().join(", ");
+        let text = |(_, text, pads): &(f64, String, Vec<usize>)| {
+            format!("pad{} {}: {text}", if pads.len() > 1 { "s" } else { "" }, names(pads))
+        };
+        slow.iter().map(text).collect()
     }
+}
 
-    /// Where the voltage rises through the mean, coming from `margin` below and going to `margin`
-    /// above.
-    fn rises(&self, mean: f64, margin: f64) -> Vec<usize> {
-        let (mut low, mut at, mut rises) = (false, 0, Vec::new());
-        for (index, code) in self.codes.iter().enumerate() {
-            let above = f64::from(*code) - mean;
-            if above < 0.0 {
-                at = index;
-            }
-            if above < -margin {
-                low = true;
-            } else if low && above > margin {
-                rises.push(at);
-                low = false;
+impl Listened {
+    /// The two strongest tones; none where the voltage does not alternate by `least` rms.
+    fn tones(&self, least: f64, highest_hz: f64) -> Vec<Tone> {
+        let [count, sum, squares] = self.sums;
+        let (mean, power) = (sum / count, squares / count - (sum / count).powi(2));
+        if power.is_nan() || power.sqrt() < least {
+            return Vec::new();
+        }
+        let mut points: Vec<[f64; 2]> = self.points.iter().map(|[t, y]| [*t, y - mean]).collect();
+        let long_s = points[points.len() - 1][0] - points[0][0];
+        let (lowest_hz, step_hz) = (SLOWEST / long_s, 0.25 / long_s);
+        let steps = (((highest_hz - lowest_hz) / step_hz) as usize).min(MOST_STEPS);
+        let mut tones = Vec::new();
+        for _ in 0..TONES {
+            let power_at = |hz: f64| fit(&points, hz).1;
+            let at = |step: usize| lowest_hz + step as f64 * step_hz;
+            let powers = spectrum(&points, lowest_hz, step_hz, steps);
+            let Some(best) = (0..powers.len()).max_by(|a, b| powers[*a].total_cmp(&powers[*b]))
+            else {
+                break;
+            };
+            let hz = peak([at(best) - step_hz, at(best) + step_hz], power_at).max(lowest_hz);
+            let ([a, b], tone) = fit(&points, hz);
+            tones.push(Tone { hz, share: tone / power });
+            for [t, y] in &mut points {
+                let phase = 2.0 * PI * hz * *t;
+                *y -= a * phase.cos() + b * phase.sin();
             }
         }
-        rises
+        tones
     }
+}
+
+/// The power that a fit has at so many frequencies, without the correlation of cosine and sine.
+fn spectrum(points: &[[f64; 2]], lowest_hz: f64, step_hz: f64, steps: usize) -> Vec<f64> {
+    let turn = |hz: f64, t: f64| {
+        let phase = 2.0 * PI * hz * t;
+        [phase.cos(), phase.sin()]
+    };
+    let times = |[a, b]: [f64; 2], [c, d]: [f64; 2]| [a * c - b * d, a * d + b * c];
+    let mut rotors: Vec<[f64; 2]> = points.iter().map(|[t, _]| turn(lowest_hz, *t)).collect();
+    let by: Vec<[f64; 2]> = points.iter().map(|[t, _]| turn(step_hz, *t)).collect();
+    let mut powers = Vec::with_capacity(steps);
+    for _ in 0..steps {
+        let mut sums = [0.0; 2];
+        for ((rotor, by), [_, y]) in rotors.iter_mut().zip(&by).zip(points) {
+            sums[0] += y * rotor[0];
+            sums[1] += y * rotor[1];
+            *rotor = times(*rotor, *by);
+        }
+        powers.push(sums[0] * sums[0] + sums[1] * sums[1]);
+    }
+    powers
+}
+
+/// The sine that fits best at a frequency, and its power.
+fn fit(points: &[[f64; 2]], hz: f64) -> ([f64; 2], f64) {
+    let mut sums = [0.0; 5];
+    for [t, y] in points {
+        let phase = 2.0 * PI * hz * t;
+        let (c, s) = (phase.cos(), phase.sin());
+        for (sum, part) in sums.iter_mut().zip([c * c, s * s, c * s, y * c, y * s]) {
+            *sum += part;
+        }
+    }
+    let [cc, ss, cs, yc, ys] = sums;
+    let determinant = cc * ss - cs * cs;
+    if determinant <= 1e-6 * cc * ss {
+        return ([0.0; 2], 0.0);
+    }
+    let (a, b) = ((yc * ss - ys * cs) / determinant, (ys * cc - yc * cs) / determinant);
+    ([a, b], (a * yc + b * ys) / points.len() as f64)
+}
+
+/// Where a function is largest between two ends, by golden section.
+fn peak([mut low, mut high]: [f64; 2], of: impl Fn(f64) -> f64) -> f64 {
+    const GOLDEN: f64 = 0.618_033_988_749_895;
+    for _ in 0..24 {
+        let [a, b] = [high - GOLDEN * (high - low), low + GOLDEN * (high - low)];
+        if of(a) > of(b) { high = b } else { low = a }
+    }
+    (low + high) / 2.0
 }
 
 #[cfg(test)]
@@ -260,17 +412,74 @@ mod tests {
         assert!(offered > 6, "{offered}");
     }
 
-    #[test]
-    fn a_meter_finds_the_frequency() {
-        let mut meter = Meter::default();
-        for slot in 0..100 {
-            let sample = |n: i32| {
-                (30_000.0 * (2.0 * PI * 233.0e-6 * f64::from(slot * 1000 + n)).sin()) as i32 + 500
+    /// Slots of the profile with a haptic voltage, by pad and time, s, of this part of full scale.
+    fn listen(profile: &Profile, slots: usize, voltage: impl Fn(usize, f64) -> f64) -> Meter {
+        let mut meter = Meter::new(profile, 1e6);
+        let (length, pads) = (profile.slot.samples() as usize, profile.pads as usize);
+        for slot in 0..slots {
+            let code = |n: usize| {
+                (131_072.0 * voltage(slot % pads, (slot * length + n) as f64 * 1e-6)) as i32
             };
-            meter.append(&(0..1000).flat_map(|n| [1, 2, sample(n) + n % 7]).collect::<Vec<_>>(), 3);
+            let codes: Vec<i32> = (0..length).flat_map(|n| [1, 2, code(n)]).collect();
+            meter.append((slot, slot % pads), &codes, 3);
         }
-        let found = meter.frequency(131_072.0).unwrap().unwrap();
-        assert!((found / 233.0e-6 - 1.0).abs() < 1e-3, "{found}");
-        assert_eq!(Meter { codes: vec![40_000; 1000] }.frequency(131_072.0), None);
+        meter
+    }
+
+    fn sine(hz: f64, t: f64) -> f64 {
+        (2.0 * PI * hz * t + 0.3).sin()
+    }
+
+    #[test]
+    fn pads_with_different_voltages_are_judged_each_for_itself() {
+        let profile = profile(Window::Hann, 1000);
+        let meter = listen(&profile, 200, |pad, t| [0.1, 0.5, 0.02, 0.9][pad] * sine(1000.0, t));
+        assert_eq!(meter.warnings(&profile), Vec::<String>::new());
+        let meter =
+            listen(&profile, 200, |pad, t| 0.5 * sine([1000.0, 233.0, 50.0, 233.0][pad], t));
+        let warnings = meter.warnings(&profile);
+        assert_eq!(warnings.len(), 2, "{warnings:?}");
+        assert!(
+            warnings[0].starts_with("pads 1, 3: ") && warnings[0].contains(" 233 Hz"),
+            "{}",
+            warnings[0]
+        );
+        assert!(
+            warnings[1].starts_with("pad 2: ") && warnings[1].contains(" 50 Hz"),
+            "{}",
+            warnings[1]
+        );
+    }
+
+    #[test]
+    fn of_two_tones_the_worse_is_named() {
+        let profile = profile(Window::Hann, 1000);
+        for (fast, slow) in [(1000.0, 200.0), (1500.0, 60.0)] {
+            let meter = listen(&profile, 200, |_, t| 0.4 * sine(fast, t) + 0.3 * sine(slow, t));
+            let warnings = meter.warnings(&profile);
+            let named: f64 = warnings[0]
+                .split("voltage of ")
+                .nth(1)
+                .unwrap()
+                .split(' ')
+                .next()
+                .unwrap()
+                .parse()
+                .unwrap();
+            assert!((named / slow - 1.0).abs() < 0.02, "{fast} {slow}: {warnings:?}");
+        }
+    }
+
+    #[test]
+    fn direct_and_fast_voltages_are_not_slow() {
+        let profile = profile(Window::Hann, 1000);
+        let voltages: [fn(f64) -> f64; 3] =
+            [|_| 0.3, |t| 0.5 * sine(20_000.0, t), |t| 0.5 * sine(2000.0, t)];
+        for voltage in voltages {
+            assert_eq!(
+                listen(&profile, 100, |_, t| voltage(t)).warnings(&profile),
+                Vec::<String>::new()
+            );
+        }
     }
 }

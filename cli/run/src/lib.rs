@@ -19,6 +19,8 @@
 //! | [`capture`] | ADC samples in CSV, WAV and SigMF files |
 //! | [`haptic`] | whether the core's window is long enough for the haptic voltage |
 //! | [`lab`] | a device's calibration from what a lab measured |
+//! | [`silent`] | what no check of a recording can see |
+//! | [`wiring`] | whether a recording's channels are the device's: sign, order, gain |
 //! | [`record`], [`provenance`] | what a run leaves, and where it comes from |
 //! | [`interrupt`], [`number`] | a run that is told to stop; numbers in messages |
 
@@ -42,3 +44,6 @@ pub mod number;
 pub mod provenance;
 pub mod record;
 pub mod session;
+pub mod silent;
+pub mod tuning_file;
+pub mod wiring;

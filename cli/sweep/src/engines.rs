@@ -74,10 +74,10 @@ impl Job {
             "cat >{folder}/Snakefile <<'EOF'\n\
              rule all:\n    input: expand(\"done/{{n}}\", n=range(1, int(config[\"chunks\"]) + 1))\n\
              rule chunk:\n    output: touch(\"done/{{n}}\")\n    \
-             shell: \"sed -n {{wildcards.n}}p {{config[lines]}} | {{config[program]}} sweep run --store {{config[store]}} -\"\n\
+             shell: \"sed -n {{wildcards.n}}p {{config[lines]:q}} | {{config[program]:q}} sweep run --store {{config[store]:q}} -\"\n\
              EOF\n\
              snakemake --snakefile {folder}/Snakefile --directory {folder} --cores all --rerun-incomplete \
-             --config chunks=$(wc -l <{chunks}) lines=$(realpath {chunks}) store=$(realpath {store}) program={program}\n"
+             --config chunks=$(wc -l <{chunks}) lines=\"$(realpath {chunks})\" store=\"$(realpath {store})\" program={program}\n"
         )
     }
 }
@@ -100,6 +100,44 @@ mod tests {
         assert_eq!(quoted("out/a-1.toml"), "out/a-1.toml");
         assert_eq!(quoted("my plan's"), r"'my plan'\''s'");
         assert_eq!(quoted(""), "''");
+    }
+
+    /// Snakemake stands for itself as a script that keeps its arguments, a line each.
+    #[cfg(unix)]
+    #[test]
+    fn blanks_in_paths_stay_within_the_words_of_snakemake() {
+        use std::os::unix::fs::PermissionsExt;
+        use std::{fs, process::Command};
+        let folder = tempfile::tempdir().expect("a folder");
+        let at = |name: &str| folder.path().join(name).display().to_string();
+        let script = |path: &str, text: &str| {
+            fs::write(path, format!("#!/bin/sh\n{text}\n")).expect("a script");
+            fs::set_permissions(path, fs::Permissions::from_mode(0o755)).expect("its mode");
+        };
+        for name in ["my tool", "my store", "bin"] {
+            fs::create_dir(at(name)).expect("a folder");
+        }
+        script(&at("my tool/hapticore"), "echo a; echo b");
+        script(&at("bin/snakemake"), &format!("printf '%s\\n' \"$@\" >'{}'", at("arguments")));
+        let job = Job::new(&at("my tool/hapticore"), "my plan.toml", &at("my store"));
+        let path = format!("{}:{}", at("bin"), std::env::var("PATH").expect("a path"));
+        let mut shell = Command::new("sh");
+        let output = shell.args(["-c", &job.commands(Engine::Snakemake)]).env("PATH", path);
+        assert!(output.output().expect("a shell").status.success());
+        let real =
+            |name: &str| fs::canonicalize(at(name)).expect("it is there").display().to_string();
+        let arguments = fs::read_to_string(at("arguments")).expect("arguments");
+        for argument in [
+            format!("lines={}", real("my store/chunks.jsonl")),
+            format!("store={}", real("my store")),
+            format!("program={}", at("my tool/hapticore")),
+        ] {
+            assert!(arguments.lines().any(|line| line == argument), "{argument}:\n{arguments}");
+        }
+        let rules = fs::read_to_string(at("my store/engine/Snakefile")).expect("the rules");
+        for key in ["lines", "program", "store"] {
+            assert!(rules.contains(&format!("{{config[{key}]:q}}")), "{key}: {rules}");
+        }
     }
 
     #[test]

@@ -146,20 +146,88 @@ impl Results {
 }
 
 impl Line {
-    /// The line as it is stored: canonical JSON, without its end.
+    /// The line as it is stored: canonical JSON, without its end. Its first key is a check sum of all others.
     pub fn text(&self) -> String {
-        canonical::text(self)
+        with_check(&canonical::text(self))
     }
 
     /// Reads a stored line.
     ///
     /// # Errors
-    /// A torn line, an unknown key, neither results nor error.
+    /// A torn line, a check sum that is not the line's, an unknown key, neither results nor error.
     pub fn read(text: &str) -> Result<Line, String> {
-        let line: Line = serde_json::from_str(text).map_err(|error| error.to_string())?;
+        let line: Line =
+            serde_json::from_str(&checked(text)?).map_err(|error| error.to_string())?;
         match (&line.results, &line.error) {
             (Some(_), None) | (None, Some(_)) => Ok(line),
             _ => Err("expected either results or error".into()),
         }
+    }
+}
+
+/// What a line begins with, before its check sum; `check` is the first of the canonical order.
+const CHECK: &str = "{\"check\":\"";
+
+/// Hexadecimal digits of a check sum: a line that is wrong passes once in 2^64.
+const DIGITS: usize = 16;
+
+fn with_check(object: &str) -> String {
+    format!("{CHECK}{}\",{}", check_of(object), &object[1..])
+}
+
+fn check_of(object: &str) -> String {
+    blake3::hash(object.as_bytes()).to_hex()[..DIGITS].to_owned()
+}
+
+/// The line without its check sum.
+fn checked(text: &str) -> Result<String, String> {
+    let parts = text.strip_prefix(CHECK).and_then(|rest| rest.split_once("\","));
+    let (check, rest) = parts.filter(|(check, _)| check.len() == DIGITS).ok_or(
+        "expected a line that begins with its check sum; without one it is damaged, or of an earlier version",
+    )?;
+    let object = format!("{{{rest}");
+    match check_of(&object) {
+        own if own == check => Ok(object),
+        own => Err(format!(
+            "expected the check sum {own} of what stands here, got {check}: the line is damaged"
+        )),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn line() -> Line {
+        Line {
+            key: "k".into(),
+            seed: 1234,
+            profile: Settings::default(),
+            scene: Settings::default(),
+            results: None,
+            error: Some("none".into()),
+        }
+    }
+
+    #[test]
+    fn a_line_reads_as_it_was_stored() {
+        let text = line().text();
+        assert_eq!(Line::read(&text), Ok(line()), "{text}");
+        let value: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+        assert_eq!(canonical::text(&value), text, "canonical with its check sum");
+    }
+
+    /// Any byte of a line is damaged, in any bit.
+    #[test]
+    fn no_damaged_byte_passes() {
+        let text = line().text();
+        for (at, bit) in (0..text.len()).flat_map(|at| (0..8).map(move |bit| (at, bit))) {
+            let mut bytes = text.clone().into_bytes();
+            bytes[at] ^= 1 << bit;
+            let Ok(damaged) = String::from_utf8(bytes) else { continue };
+            assert!(Line::read(&damaged).is_err(), "{at}, {bit}: {damaged}");
+        }
+        let old = canonical::text(&line());
+        assert!(Line::read(&old).is_err_and(|error| error.contains("begins with its check sum")));
     }
 }

@@ -15,6 +15,29 @@ use hapticore_contract::control::{Control, Walls};
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::format::{BIT, Format};
 
+/// Settings as an enumeration, by number, and what is said of each.
+macro_rules! settings {
+    ($($(#[doc = $about:literal])+ $name:ident;)*) => {
+        /// Settings of controller and walls, by number.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+        pub enum Setting {
+            $($(#[doc = $about])+ $name,)*
+        }
+
+        impl Setting {
+            /// All settings, in the order of their numbers.
+            pub const ALL: [Setting; [$(stringify!($name)),*].len()] = [$(Setting::$name),*];
+
+            /// What it is, for readers of a table.
+            pub const fn about(self) -> &'static str {
+                match self {
+                    $(Setting::$name => concat!($($about),+),)*
+                }
+            }
+        }
+    };
+}
+
 /// The format of a place within those of the drive.
 pub const PLACE: Format = Format::unsigned(14, 0);
 
@@ -44,51 +67,51 @@ pub enum Kind {
 
 /// Bits of a packet's last word.
 pub mod status {
-    /// The host was silent for too long.
-    pub const SILENCE: u8 = 0;
-    /// Estimates of a pad were invalid for too long.
-    pub const SENSOR: u8 = 1;
-    /// A force was beyond its cap.
-    pub const FORCE: u8 = 2;
-    /// The drive is at zero and should be less.
-    pub const LOW: u8 = 3;
-    /// The drive is at its rail and should be more.
-    pub const HIGH: u8 = 4;
-    /// The user leaves the pad's wall.
-    pub const FREE: u8 = 5;
-    /// Every channel of the converter has been set to zero since reset.
-    pub const LIVE: u8 = 6;
-    /// The first of four bits: the pad of the drive word.
-    pub const PAD: u8 = 8;
+    crate::bits! {
+        /// The host was silent for too long.
+        SILENCE = 0;
+        /// Estimates of a pad were invalid for too long.
+        SENSOR = 1;
+        /// A force was beyond its cap.
+        FORCE = 2;
+        /// The drive is at zero and should be less.
+        LOW = 3;
+        /// The drive is at its rail and should be more.
+        HIGH = 4;
+        /// The user leaves the pad's wall.
+        FREE = 5;
+        /// Every channel of the converter has been set to zero since reset.
+        LIVE = 6;
+        /// The first of four bits: the pad of the drive word.
+        PAD = 8;
+    }
     /// Bits in all.
     pub const BITS: u8 = 12;
 }
 
-/// Settings of controller and walls, by number.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Setting {
+settings! {
     /// One: drives follow their targets. Zero, as after a reset: they go to zero.
-    Enable,
+    Enable;
     /// One over the haptic mean square at full drive.
-    FullDrive,
+    FullDrive;
     /// Gain of the error.
-    Proportional,
+    Proportional;
     /// Filter or integral gain.
-    Correction,
+    Correction;
     /// Largest drive word.
-    Rail,
+    Rail;
     /// Largest change of a drive word from frame to frame.
-    Slew,
+    Slew;
     /// A larger force is a fault, N.
-    ForceCap,
+    ForceCap;
     /// Stiffness of the walls, N/mm.
-    Stiffness,
+    Stiffness;
     /// Largest force of a wall, N.
-    Most,
+    Most;
     /// What the direction of a wall on the left reads without a push.
-    Factory,
-    /// The bits of [`Request`], which act once.
-    Request,
+    Factory;
+    /// The bits of [`Request`], which act once: clear faults, restart walls.
+    Request;
 }
 
 /// The bits of [`Setting::Request`].
@@ -105,21 +128,6 @@ impl Request {
 }
 
 impl Setting {
-    /// All settings, in the order of their numbers.
-    pub const ALL: [Setting; 11] = [
-        Setting::Enable,
-        Setting::FullDrive,
-        Setting::Proportional,
-        Setting::Correction,
-        Setting::Rail,
-        Setting::Slew,
-        Setting::ForceCap,
-        Setting::Stiffness,
-        Setting::Most,
-        Setting::Factory,
-        Setting::Request,
-    ];
-
     /// Its format on a board of the profile; none without a controller.
     pub fn format(self, profile: &Profile) -> Option<Format> {
         let Control { drive, gain, .. } = *profile.control.as_ref()?;

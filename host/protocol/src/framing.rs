@@ -67,28 +67,29 @@ pub const PLACE_BYTES: u64 = 2;
 
 /// The bits of a frame packet's flags: the low eight are the first byte, the others the second.
 pub mod flags {
-    /// A code was at full scale of the ADC.
-    pub const CLIPPED: u8 = 0;
-    /// A word was saturated.
-    pub const SATURATED: u8 = 1;
-    /// The pad's last valid results stand.
-    pub const INVALID: u8 = 2;
-    /// A terminal is open.
-    pub const LOST: u8 = 3;
-    /// The ADC was late since the packet before.
-    pub const LATE: u8 = 4;
-    /// A command was refused since the packet before.
-    pub const REFUSED: u8 = 5;
-    /// A frame was dropped since the packet before.
-    pub const OVERRUN: u8 = 6;
-    /// The packet is no frame but a heartbeat, none of [`LIFTED`], and the first four flags are others: [`CALIBRATED`],
-    /// and from [`VERSION`] on [`super::VERSION`].
-    pub const HEARTBEAT: u8 = 7;
-    /// The pad does not touch; its last valid place stands.
-    pub const LIFTED: u8 = 8;
+    crate::bits! {
+        /// A code was at full scale of the ADC.
+        CLIPPED = 0;
+        /// A word was saturated.
+        SATURATED = 1;
+        /// The pad's last valid results stand.
+        INVALID = 2;
+        /// A terminal is open.
+        LOST = 3;
+        /// The ADC was late since the packet before: samples since then are wrong.
+        LATE = 4;
+        /// A command was refused since the packet before: damaged, or for the ADC while the board is enabled.
+        REFUSED = 5;
+        /// A frame was dropped since the packet before, for the line was busy.
+        OVERRUN = 6;
+        /// The packet is no frame but a heartbeat, never lifted, and the first four flags are others.
+        HEARTBEAT = 7;
+        /// The pad does not touch; its last valid place stands.
+        LIFTED = 8;
+    }
     /// Of a heartbeat: since reset the last calibration register has been written.
     pub const CALIBRATED: u8 = 0;
-    /// Of a heartbeat: the first of three bits.
+    /// Of a heartbeat: the first of three bits, which are [`super::VERSION`].
     pub const VERSION: u8 = 1;
 }
 

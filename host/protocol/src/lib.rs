@@ -13,6 +13,16 @@
 //! | [`output`] | what such a board was printed for: converter, wave, full scale, clock |
 //! | [`calibration`] | the words that make a calibrated sensor of a core: the one list of them |
 
+/// Numbers of bits as constants, and a list of them: name, number, what is said of it.
+macro_rules! bits {
+    ($($(#[doc = $about:literal])+ $name:ident = $bit:literal;)*) => {
+        $($(#[doc = $about])+ pub const $name: u8 = $bit;)*
+        /// All of them: name, number, what it says.
+        pub const ALL: &[(&str, u8, &str)] = &[$((stringify!($name), $bit, concat!($($about),+))),*];
+    };
+}
+pub(crate) use bits;
+
 pub mod calibration;
 pub mod drive;
 pub mod framing;

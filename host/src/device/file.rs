@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The file of a device's calibration: read, checked and written.
 
-use super::{DeviceCalibration, Force, MOST_CONTACT_PF, Raster, Scales};
+use super::{DeviceCalibration, Force, MOST_CONTACT_PF, Raster, Scales, Shares};
 use crate::text::{ReadError, read, with_key};
 use std::fmt::Write;
 use std::path::Path;
@@ -52,6 +52,8 @@ impl DeviceCalibration {
             1..=256 => {
                 self.device.check()?;
                 self.force.as_ref().map_or(Ok(()), Force::check)?;
+                let terminals = self.terminals.x.len();
+                self.shares.as_ref().map_or(Ok(()), |shares| shares.check(terminals))?;
                 self.map.check()
             }
             pads => Err(format!("pads: expected 1 to 256, got {pads}")),
@@ -89,6 +91,7 @@ impl DeviceCalibration {
             writeln!(text, "{place:?},").expect("a string takes all");
         }
         text.push_str("]\n");
+        text.extend(self.shares.as_ref().map(Shares::text));
         text
     }
 }

@@ -28,14 +28,19 @@
 //! columns = 121                   # places in a row
 //! open_share = 0.01               # of the ratios' denominator: a terminal with less current is open; none ever where it is left out
 //! places = [[x_mm, y_mm, r_x, r_y, sheet_ohm], …]
+//! [shares]                        # of each terminal's current by place ([`Shares`]); without it the order of channels is not checked
+//! error = 0.001                   # how well a place's shares follow from those about it
+//! places = [[x_mm, y_mm, s_1, …], …]
 //! ```
 
 mod file;
 mod force;
 mod refine;
+mod shares;
 
 pub use file::DeviceError;
 pub use force::{Force, MEAN_S, RECENT_S, RELEASE_V};
+pub use shares::Shares;
 
 use std::f64::consts::TAU;
 
@@ -76,6 +81,8 @@ pub struct DeviceCalibration {
     pub force: Option<Force>,
     /// Places and what is measured there.
     pub map: Raster,
+    /// Each terminal's share of the current by place, where it is known.
+    pub shares: Option<Shares>,
 }
 
 /// Pads that are not split.

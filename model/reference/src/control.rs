@@ -124,7 +124,9 @@ impl Controller {
         if off {
             self.clear();
         }
-        let [low, high] = [low, high].map(|limited| limited && !prompt.lifted);
+        let measured = !prompt.invalid && !prompt.lifted;
+        let low = low && drive == 0.0 && measured;
+        let high = high && drive >= self.tuning.rail && measured;
         Drive { pad: prompt.pad, fraction: drive, low, high, faults: self.faults, walled: None }
     }
 

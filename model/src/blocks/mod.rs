@@ -17,6 +17,8 @@ pub mod haptic_voltage;
 mod marks;
 pub mod multiplexer;
 pub mod multiplier;
+#[cfg(test)]
+mod mutants;
 pub mod oscillator;
 pub mod pace;
 pub mod position;

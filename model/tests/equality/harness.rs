@@ -4,18 +4,19 @@
 use hapticore_hdl::block::{Block, Edit, Inputs, Interpretation, Outputs, State, Submodule};
 use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::Format;
+use hapticore_hdl::interpretations::netlist::mutants;
+use hapticore_hdl::interpretations::netlist::simulation::Simulation;
 use hapticore_hdl::memory::Memory;
 use hapticore_hdl::probe::{Variable, sample, variables};
 use hapticore_hdl::signal::Signal;
+use std::any::Any;
 
-/// Operations of a test: all of them where code is optimised. Where it is not, one of two hundred, or of as many as
-/// `HAPTICORE_SHARE` says, and of few operations eight.
+/// Operations of a test: all of them where code is optimised, one of two hundred where it is not; one of as many as
+/// `HAPTICORE_SHARE` says where that is set. Of few operations eight.
 pub fn operations(all: u64) -> u64 {
-    if cfg!(optimised) {
-        return all;
-    }
     let share = std::env::var("HAPTICORE_SHARE").ok().and_then(|share| share.parse().ok());
-    (all / share.unwrap_or(200)).max(all.min(8))
+    let share = share.unwrap_or(if cfg!(optimised) { 1 } else { 200 });
+    (all / share).max(all.min(8))
 }
 
 /// A block under test.
@@ -23,16 +24,29 @@ pub struct Bench<B: Block, V: Interpretation = i64> {
     pub block: B,
     pub state: State<B, V>,
     pub clock: u64,
+    /// Clocked in place of the block where the test is judged by a mutant.
+    netlist: Option<Box<Simulation>>,
 }
 
 impl<B: Block, V: Interpretation> Bench<B, V> {
     /// The block at reset, in some interpretation.
     pub fn read(block: B) -> Self {
-        Bench { state: block.reset(), block, clock: 0 }
+        let mut state: State<B, V> = block.reset();
+        let mut netlist = None;
+        if let Some(state) = (&mut state as &mut dyn Any).downcast_mut::<State<B, i64>>() {
+            netlist = mutants::in_place_of(&block).map(Box::new);
+            netlist.iter_mut().for_each(|netlist| *state = netlist.reset(&block));
+        }
+        Bench { state, block, clock: 0, netlist }
     }
 
     /// Runs one clock and returns the outputs.
     pub fn clock(&mut self, inputs: Inputs<B, i64>) -> Outputs<B, i64> {
+        if let Some(netlist) = &mut self.netlist {
+            self.clock += 1;
+            let state = (&mut self.state as &mut dyn Any).downcast_mut();
+            return netlist.step(&self.block, state.expect("only codes have mutants"), inputs);
+        }
         let with_formats = B::Inputs::zip(inputs, self.block.inputs());
         let signals = B::Inputs::map(with_formats, |(code, format)| Signal {
             value: V::raw(code, format),

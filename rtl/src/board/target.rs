@@ -13,7 +13,7 @@ use super::drive_output::Converter;
 use super::parameters::{Drive, Parameters};
 use super::top::{DriveTop, Primitive, Top};
 use super::whole::{Board, BoardError};
-use crate::component;
+use crate::{component, header};
 use hapticore_contract::profile::Profile;
 use rust_hdl_core::prelude::{Atom, Block, Constraint, PinConstraint, Probe};
 use std::fmt::Write;
@@ -24,6 +24,9 @@ const ICEBREAKER_NOTE: &str = "\
 # SNAP THE BREAK-OFF BOARD OFF before you connect a driver: PMOD 2 goes through its lamps and buttons. No select line is at
 # a button (PMOD 2, pins 4, 9, 10), so that none is pressed closed, but lamps load pads[2], pads[3] and carrier.
 ";
+
+/// Pins of either board for select lines of pads.
+const MOST_PADS: u64 = 4;
 
 /// A board that one can buy.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -51,10 +54,10 @@ impl FromStr for Target {
 }
 
 /// Puts the top's ports on pins: each port's from its least significant bit, with what else is to
-/// be said of each.
+/// be said of each. Pins beyond a port's width are left free.
 macro_rules! locate {
     ($top:ident: $($port:ident $pins:expr $(=> $also:literal)?;)*) => {
-        $(for (bit, pin) in $pins.into_iter().enumerate() {
+        $(for (bit, pin) in $pins.into_iter().enumerate().take(Atom::bits(&$top.$port)) {
             $top.$port.add_location(bit, pin);
             $($top.$port.add_constraint(PinConstraint { index: bit, constraint: Constraint::Custom($also.into()) });)?
         })*
@@ -163,13 +166,42 @@ impl Target {
     /// drives of its pads and their wave.
     ///
     /// # Errors
-    /// Where the board cannot serve the profile or has no pins for the converter.
+    /// Where the board cannot serve the profile, or has too few pins for its pads or none for the converter.
     pub fn printed(self, profile: &Profile, drive: Option<Drive>) -> Result<Printed, BoardError> {
-        let board = Board::new(profile, &Parameters { drive, ..self.parameters() })?;
+        let parameters = Parameters { drive, ..self.parameters() };
+        let board = Board::new(profile, &parameters)?;
+        let (channels, pads) = (profile.channels(), profile.pads);
+        let pins = |port, most: u64, got: u64| {
+            let error = BoardError::FewPins { board: self.name(), port, most, got };
+            (got <= most).then_some(()).ok_or(error)
+        };
+        pins("pads", MOST_PADS, pads)?;
+        // rust-hdl has widths in types: a top for each that a device may have.
+        macro_rules! top_of {
+            ($(($channels:literal, $pads:literal))*) => {
+                match (channels, pads) {
+                    $(($channels, $pads) => self.top::<$channels, $pads>(board, drive),)*
+                    _ => unreachable!("{channels} ADC channels and {pads} pads were accepted"),
+                }
+            };
+        }
+        let mut printed = top_of! {
+            (5, 1) (5, 2) (5, 3) (5, 4) (6, 1) (6, 2) (6, 3) (6, 4) (7, 1) (7, 2) (7, 3) (7, 4) (8, 1) (8, 2) (8, 3) (8, 4)
+        }?;
+        printed.verilog = self.heading(profile, &parameters) + printed.verilog.trim_start();
+        Ok(printed)
+    }
+
+    /// A board's top for an ADC of so many channels and so many pads, on its pins.
+    fn top<const CHANNELS: usize, const PADS: usize>(
+        self,
+        board: Board,
+        drive: Option<Drive>,
+    ) -> Result<Printed, BoardError> {
         let (primitive, active_low) = (self.primitive(), self == Target::Icebreaker);
         match (self, drive) {
             (Target::Ulx3s, Some(Drive { converter: Converter::Serial(_), .. })) => {
-                let mut top = DriveTop::new(board, primitive, active_low);
+                let mut top = DriveTop::<CHANNELS, PADS>::new(board, primitive, active_low);
                 ulx3s!(top);
                 locate!(top:
                     dac_sync_n ["C4"];
@@ -181,17 +213,37 @@ impl Target {
                 Ok(self.print(&mut top))
             }
             (Target::Ulx3s, None) => {
-                let mut top = Top::new(board, primitive, active_low);
+                let mut top = Top::<CHANNELS, PADS>::new(board, primitive, active_low);
                 ulx3s!(top);
                 Ok(self.print(&mut top))
             }
             (Target::Icebreaker, None) => {
-                let mut top = Top::new(board, primitive, active_low);
+                let mut top = Top::<CHANNELS, PADS>::new(board, primitive, active_low);
                 icebreaker!(top);
                 Ok(self.print(&mut top))
             }
             (_, Some(_)) => Err(BoardError::NoPins(self.name())),
         }
+    }
+
+    /// What stands at the head of a board's Verilog.
+    fn heading(self, profile: &Profile, parameters: &Parameters) -> String {
+        let Parameters { clock_hz, baud, drive, .. } = *parameters;
+        let control = profile.control.as_ref().map(|control| control.law.name());
+        let control = control.map_or(String::new(), |law| format!(" --control {law}"));
+        let drive = if drive.is_some() { ", with a drive" } else { "" };
+        format!(
+            "// SPDX-License-Identifier: MIT OR Apache-2.0\n\
+             // top: board {name} for {terminals} terminals and {pads} pads{drive}.\n\
+             // Generated by `hapticore hdl --board {name} --profile {profile}{control}` ({source}); do not edit.\n\
+             // Clock {clock_hz} Hz; serial line {baud} baud, 8N1 ({line} baud with a whole divisor).\n\n",
+            name = self.name(),
+            terminals = profile.terminals.x.len(),
+            pads = profile.pads,
+            profile = profile.name,
+            source = header::source(profile),
+            line = clock_hz / parameters.divisor(),
+        )
     }
 
     /// Verilog and constraints of a top whose ports have their pins.

@@ -13,14 +13,14 @@
 
 use super::whole;
 use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::{AutoReset, BitSynchronizer, DFF};
+use rust_hdl_widgets::prelude::{BitSynchronizer, DFF};
 
 crate::component! {
-    /// The board as a rust-hdl component.
-    pub struct BoardComponent of whole::Board {
-        inputs { dout: Bits<8>, busy: Bit, rx: Bit }
+    /// The board as a rust-hdl component, for an ADC of so many channels and so many pads.
+    pub struct BoardComponent<const CHANNELS, const PADS> of whole::Board {
+        inputs { dout: Bits<CHANNELS>, busy: Bit, rx: Bit }
         outputs {
-            convst: Bit, cs_n: Bit, sclk_run: Bit, sdi: Bit, carrier: Bit, select: Bits<4>, tx: Bit, enabled: Bit, late: Bit,
+            convst: Bit, cs_n: Bit, sclk_run: Bit, sdi: Bit, carrier: Bit, select: Bits<PADS>, tx: Bit, enabled: Bit, late: Bit,
             adc_reset: Bit
         }
     }
@@ -28,11 +28,46 @@ crate::component! {
 
 crate::component! {
     /// The board with a serial converter for its pads, as a rust-hdl component.
-    pub struct DriveBoardComponent of whole::Board {
-        inputs { dout: Bits<8>, busy: Bit, rx: Bit }
+    pub struct DriveBoardComponent<const CHANNELS, const PADS> of whole::Board {
+        inputs { dout: Bits<CHANNELS>, busy: Bit, rx: Bit }
         outputs {
-            convst: Bit, cs_n: Bit, sclk_run: Bit, sdi: Bit, carrier: Bit, select: Bits<4>, tx: Bit, enabled: Bit, late: Bit,
-            adc_reset: Bit, dac_sync_n: Bit, dac_sclk: Bit, dac_sdi: Bit, dac_polarity: Bits<4>, dac_live: Bit
+            convst: Bit, cs_n: Bit, sclk_run: Bit, sdi: Bit, carrier: Bit, select: Bits<PADS>, tx: Bit, enabled: Bit, late: Bit,
+            adc_reset: Bit, dac_sync_n: Bit, dac_sclk: Bit, dac_sdi: Bit, dac_polarity: Bits<PADS>, dac_live: Bit
+        }
+    }
+}
+
+/// Asserted for 255 clocks after the FPGA has been configured. rust-hdl's `AutoReset` adds an integer of 32 bits to its count,
+/// at which linters stop.
+#[derive(LogicBlock)]
+#[allow(missing_docs)]
+pub struct PowerUp {
+    pub clock: Signal<In, Clock>,
+    pub reset: Signal<Out, Bit>,
+    one: Constant<Bits<8>>,
+    count: DFF<Bits<8>>,
+}
+
+impl Default for PowerUp {
+    fn default() -> Self {
+        PowerUp {
+            clock: Signal::default(),
+            reset: Signal::default(),
+            one: Constant::new(1.into()),
+            count: DFF::default(),
+        }
+    }
+}
+
+impl Logic for PowerUp {
+    #[hdl_gen]
+    fn update(&mut self) {
+        self.count.clock.next = self.clock.val();
+        self.count.d.next = self.count.q.val();
+        self.reset.next = false;
+        if !self.count.q.val().all() {
+            self.count.d.next = self.count.q.val() + self.one.val();
+            self.reset.next = true;
         }
     }
 }
@@ -137,7 +172,7 @@ macro_rules! top {
         $(#[$meta])*
         #[derive(LogicBlock)]
         #[allow(missing_docs)]
-        pub struct $name {
+        pub struct $name<const CHANNELS: usize, const PADS: usize> {
             pub clock: Signal<In, Clock>,
             pub button: Signal<In, Bit>,
             pub rx: Signal<In, Bit>,
@@ -148,21 +183,21 @@ macro_rules! top {
             pub cs_n: Signal<Out, Bit>,
             pub sclk: Signal<Out, Bit>,
             pub sdi: Signal<Out, Bit>,
-            pub dout: Signal<In, Bits<8>>,
+            pub dout: Signal<In, Bits<CHANNELS>>,
             pub carrier: Signal<Out, Bit>,
-            pub pads: Signal<Out, Bits<4>>,
+            pub pads: Signal<Out, Bits<PADS>>,
             pub enabled: Signal<Out, Bit>,
             pub late: Signal<Out, Bit>,
             $(pub $pin: Signal<Out, $width>,)*
             active_low: Constant<Bit>,
-            power_up: AutoReset,
+            power_up: PowerUp,
             pressed: BitSynchronizer,
             hold: DFF<Bit>,
-            board: $board,
+            board: $board<CHANNELS, PADS>,
             pulses: SclkOutput,
         }
 
-        impl $name {
+        impl<const CHANNELS: usize, const PADS: usize> $name<CHANNELS, PADS> {
             /// The top of a board, whose button and lamps may be active low.
             pub fn new(board: whole::Board, primitive: Primitive, active_low: bool) -> Self {
                 $name {
@@ -183,7 +218,7 @@ macro_rules! top {
                     late: Signal::default(),
                     $($pin: Signal::default(),)*
                     active_low: Constant::new(active_low),
-                    power_up: AutoReset::default(),
+                    power_up: PowerUp::default(),
                     pressed: BitSynchronizer::default(),
                     hold: DFF::default(),
                     board: $board::new(board),
@@ -192,7 +227,7 @@ macro_rules! top {
             }
         }
 
-        impl Logic for $name {
+        impl<const CHANNELS: usize, const PADS: usize> Logic for $name<CHANNELS, PADS> {
             #[hdl_gen]
             fn update(&mut self) {
                 self.power_up.clock.next = self.clock.val();
@@ -230,5 +265,5 @@ top! {
 
 top! {
     /// The top of a board that drives its pads through a serial converter.
-    DriveTop of DriveBoardComponent, dac_sync_n: Bit, dac_sclk: Bit, dac_sdi: Bit, dac_polarity: Bits<4>, dac_live: Bit,
+    DriveTop of DriveBoardComponent, dac_sync_n: Bit, dac_sclk: Bit, dac_sdi: Bit, dac_polarity: Bits<PADS>, dac_live: Bit,
 }

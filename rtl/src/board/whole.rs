@@ -120,6 +120,18 @@ pub enum BoardError {
     /// A board without pins for a drive, or for this converter.
     #[error("{0} has no pins for such a drive: expected ulx3s, with ad5664, ad5664r or ad5668")]
     NoPins(&'static str),
+    /// A board with fewer pins than the profile asks for.
+    #[error("{port}: expected 1 to {most}, for {board} has no more pins for them; got {got}")]
+    FewPins {
+        /// The board's name.
+        board: &'static str,
+        /// The port.
+        port: &'static str,
+        /// Its pins.
+        most: u64,
+        /// Bits that the profile asks for.
+        got: u64,
+    },
 }
 
 impl Board {

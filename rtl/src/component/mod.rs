@@ -27,7 +27,8 @@
 //! ```
 //!
 //! Words are `Bits`, those of signed formats in two's complement: rust-hdl's `Signed` overflows the
-//! stack at its most negative code. Names and widths are checked when a component is made.
+//! stack at its most negative code. Names and widths are checked when a component is made. Widths that a profile decides
+//! may be parameters: `pub struct Switches<const PADS> of Pads { … outputs { select: Bits<PADS> } }`.
 
 mod simulated;
 
@@ -115,12 +116,12 @@ pub fn declaration<B: hapticore_hdl::block::Block>(block: &B, path: &str, name: 
 /// Makes a rust-hdl component of a block; see [the module](mod@crate::component).
 #[macro_export]
 macro_rules! component {
-    ($(#[$meta:meta])* $vis:vis struct $name:ident of $block:ty {
+    ($(#[$meta:meta])* $vis:vis struct $name:ident $(<$(const $width:ident),*>)? of $block:ty {
         inputs { $($input:ident: $in_type:ty),* $(,)? }
         outputs { $($output:ident: $out_type:ty),* $(,)? }
     }) => {
         $(#[$meta])*
-        $vis struct $name {
+        $vis struct $name $(<$(const $width: usize),*>)? {
             /// The clock of all registers.
             pub clock: $crate::component::rust_hdl_core::prelude::Signal<
                 $crate::component::rust_hdl_core::prelude::In, $crate::component::rust_hdl_core::prelude::Clock>,
@@ -134,7 +135,7 @@ macro_rules! component {
             simulated: $crate::component::Simulated<$block>,
         }
 
-        impl $name {
+        impl $(<$(const $width: usize),*>)? $name $(<$($width),*>)? {
             /// The component of a block.
             ///
             /// # Panics
@@ -153,7 +154,7 @@ macro_rules! component {
             }
         }
 
-        impl $crate::component::rust_hdl_core::prelude::Logic for $name {
+        impl $(<$(const $width: usize),*>)? $crate::component::rust_hdl_core::prelude::Logic for $name $(<$($width),*>)? {
             fn update(&mut self) {
                 use $crate::component::Word;
                 let inputs = [$(self.$input.val().to_word()),*];
@@ -171,7 +172,7 @@ macro_rules! component {
             }
         }
 
-        impl $crate::component::rust_hdl_core::prelude::Block for $name {
+        impl $(<$(const $width: usize),*>)? $crate::component::rust_hdl_core::prelude::Block for $name $(<$($width),*>)? {
             fn connect_all(&mut self) {
                 $crate::component::rust_hdl_core::prelude::Logic::connect(self);
                 $(self.$input.connect_all();)*

@@ -4,6 +4,8 @@
 use hapticore_hdl::block::{Block, Edit, Inputs, Outputs, State, Submodule};
 use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::Format;
+use hapticore_hdl::interpretations::netlist::mutants;
+use hapticore_hdl::interpretations::netlist::simulation::Simulation;
 use hapticore_hdl::memory::{Memory, Storage};
 use hapticore_hdl::signal::Signal;
 
@@ -12,16 +14,23 @@ use hapticore_hdl::signal::Signal;
 pub struct Bench<B: Block> {
     pub block: B,
     state: State<B, i64>,
+    /// Clocked in place of the block where the test is judged by a mutant.
+    netlist: Option<Simulation>,
 }
 
 impl<B: Block> Bench<B> {
     /// The block at reset.
     pub fn new(block: B) -> Self {
-        Bench { state: block.reset(), block }
+        let mut netlist = mutants::in_place_of(&block);
+        let reset = netlist.as_mut().map(|netlist| netlist.reset(&block));
+        Bench { state: reset.unwrap_or_else(|| block.reset()), block, netlist }
     }
 
     /// Runs one clock and returns the outputs.
     pub fn clock(&mut self, inputs: Inputs<B, i64>) -> Outputs<B, i64> {
+        if let Some(netlist) = &mut self.netlist {
+            return netlist.step(&self.block, &mut self.state, inputs);
+        }
         let with_formats = B::Inputs::zip(inputs, self.block.inputs());
         let signals = B::Inputs::map(with_formats, |(value, format)| Signal { value, format });
         B::Outputs::map(self.block.step(&mut self.state, signals), |signal| signal.value)

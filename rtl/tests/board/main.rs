@@ -9,6 +9,9 @@ mod device;
 #[allow(dead_code)]
 mod random;
 
+#[path = "../../../model/src/support/campaign.rs"]
+mod campaign;
+
 mod bench;
 mod blocks;
 mod board_pins;
@@ -18,6 +21,7 @@ mod drive_output;
 mod driven;
 mod heartbeats;
 mod line;
+mod mutants;
 mod part;
 mod pins;
 mod ranges;

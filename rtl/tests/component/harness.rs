@@ -25,16 +25,6 @@ pub trait Design: Block {
     fn clock(&mut self, _high: bool) {}
 }
 
-/// Whether Icarus is there; in CI it must be.
-pub fn have_icarus() -> bool {
-    let there = Command::new("iverilog").arg("-V").output().is_ok();
-    assert!(there || std::env::var("CI").as_deref() != Ok("true"), "missing in CI: iverilog");
-    if !there {
-        eprintln!("SKIPPED: iverilog not found; ./test fetches what is missing");
-    }
-    there
-}
-
 /// The outputs that rust-hdl's simulation gives, inputs after inputs; each a clock where there is
 /// one.
 pub fn simulated<D: Design>(design: &mut D, inputs: &[Vec<u64>]) -> Vec<Vec<u64>> {

@@ -17,7 +17,7 @@ module bench;
     wire signed [15:0] frame;
     wire closed, valid, done, clipped, saturated, invalid, lost, lifted, overrun;
 
-    hapticore core (
+    hapticore_small core (
         .clock(clock), .reset(reset), .strobe(strobe), .clear(clear), .code(code),
         .capacitance_gain(capacitance_gain), .force_gain(force_gain), .contact_capacitance(contact_capacitance),
         .write(write), .address(address), .word(word), .channel(channel), .serve(serve), .closed(closed), .carrier(carrier),

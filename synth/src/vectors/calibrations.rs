@@ -72,7 +72,7 @@ fn corner(format: Format, noise: &mut Noise) -> i64 {
 }
 
 /// A calibration such as a sheet has.
-fn sheet(profile: &Profile, set: Set) -> Calibration {
+pub fn sheet(profile: &Profile, set: Set) -> Calibration {
     let (columns, rows) = (41, 25);
     let point = |k: usize| {
         let (u, v) = ((k % columns) as f64 / 20.0 - 1.0, (k / columns) as f64 / 12.0 - 1.0);

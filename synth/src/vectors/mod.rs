@@ -12,9 +12,11 @@
 //! | calibration.csv | what is written before which row of samples: a constant by its port, a word of the table by its address, `clocks` from one strobe to the next, or `clear` for a clock |
 //! | samples.csv | a row a strobe |
 //! | frames.csv | a row a word of a frame, flags behind it |
+//! | loop_*.csv | the same for the printed force loop, see `force_loop` |
 //! | pins.csv | the other outputs, a row for each clock after reset at which one of them is new |
 
 mod calibrations;
+mod force_loop;
 mod slots;
 
 use crate::sources::File;
@@ -38,7 +40,7 @@ const REST: u64 = 10_000;
 /// Slots, what is written for their frames, and what their numbers begin with. Those with numbers
 /// above 12 were found among thousands drawn so, as the ones that notice faults that others do not:
 /// a sum whose bits end just so, say.
-const SLOTS: [(Slot, Option<Set>, u32); 32] = [
+const SLOTS: [(Slot, Option<Set>, u32); 37] = [
     (Slot::Any, Some(Set::Sheet), 1000),
     (Slot::Pad, None, 1),
     (Slot::Pad, None, 2),
@@ -71,6 +73,12 @@ const SLOTS: [(Slot, Option<Set>, u32); 32] = [
     (Slot::Pad, Some(Set::Constants), 3668),
     (Slot::Pad, Some(Set::Constants), 1507),
     (Slot::Pad, Some(Set::Flat(31_691)), 11),
+    // Of the last pad: whatever `clear` leaves of pad, count or window shows in the slot after it.
+    (Slot::Cut(351), None, 12),
+    (Slot::Pad, None, 13),
+    (Slot::Cut(1), None, 14),
+    (Slot::Cut(850), None, 15),
+    (Slot::Pad, None, 16),
 ];
 
 /// Numbers without a pattern, the same everywhere.
@@ -189,14 +197,20 @@ fn slot(bench: &mut Bench, profile: &Profile, slot: Slot, set: Option<Set>, nois
         let window = sample.checked_sub(blanking);
         let codes = window.map_or([0; CHANNELS], |sample| slot.codes(&tones, sample, noise));
         let next = window.map_or(usual, |sample| slot.clocks(sample, usual));
+        let next = if slot == Slot::Cut(sample + 1) { 1 } else { next };
         if next != clocks {
             clocks = next;
             bench.write("clocks", clocks as i64);
         }
         bench.sample(&codes, clocks);
     }
-    if slot == Slot::Abandoned {
+    if slot.is_abandoned() {
         bench.write("clear", 1);
+    }
+    if clocks != usual {
+        // Until the next strobe is due.
+        (1..usual).for_each(|_| bench.write("clear", 1));
+        bench.write("clocks", usual as i64);
     }
 }
 
@@ -210,10 +224,12 @@ pub fn files() -> Vec<File> {
     }
     (0..REST).for_each(|_| bench.clock(bench.constants));
     let file = |name: &str, text: String| File { name: name.into(), text };
-    vec![
+    let mut files = vec![
         file("calibration.csv", bench.written),
         file("samples.csv", bench.samples),
         file("frames.csv", bench.frames),
         file("pins.csv", bench.changes),
-    ]
+    ];
+    files.extend(force_loop::files());
+    files
 }

@@ -54,6 +54,15 @@ pub enum Slot {
     /// A pad, but a strobe comes a clock too early, some come late, and the slot is abandoned
     /// before its end.
     Abandoned,
+    /// A pad whose slot ends with `clear`, a clock after the strobe of this sample, counted from one.
+    Cut(u64),
+}
+
+impl Slot {
+    /// Whether `clear` follows its last sample.
+    pub fn is_abandoned(self) -> bool {
+        matches!(self, Slot::Abandoned | Slot::Cut(_))
+    }
 }
 
 /// What a channel sees.
@@ -139,7 +148,7 @@ impl Slot {
                 })
             }
             Slot::Noise | Slot::Silence => [Tone::default(); CHANNELS],
-            Slot::Pad | Slot::FullScale | Slot::Halfway | Slot::Abandoned => pad,
+            Slot::Pad | Slot::FullScale | Slot::Halfway | Slot::Abandoned | Slot::Cut(_) => pad,
         }
     }
 
@@ -173,7 +182,11 @@ impl Slot {
 
     /// How many of its samples come.
     pub fn samples(self, whole: u64) -> u64 {
-        if self == Slot::Abandoned { whole - 100 } else { whole }
+        match self {
+            Slot::Abandoned => whole - 100,
+            Slot::Cut(samples) => samples,
+            _ => whole,
+        }
     }
 
     /// Clocks from the strobe of a sample on to the next one.

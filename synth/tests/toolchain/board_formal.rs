@@ -48,8 +48,9 @@ fn reader(profile: &Profile, parameters: &Parameters) -> (String, Vec<(&'static 
 }
 
 #[test]
+#[cfg_attr(not(tool = "synth/tools"), ignore = "needs synth/tools: ./test fetches what is missing")]
 fn the_adc_s_pins_keep_to_their_schedule_whatever_is_enabled_when() {
-    let Some(tools) = Tools::or_skip() else { return };
+    let tools = Tools::find().expect("what synth/tools fetches");
     for target in Target::ALL {
         let (verilog, parameters) = reader(&target.profile(), &target.parameters());
         let found = verdict(&tools, &verilog, "adc_reader", &parameters, Mode::Prove(10));
@@ -60,8 +61,9 @@ fn the_adc_s_pins_keep_to_their_schedule_whatever_is_enabled_when() {
 }
 
 #[test]
+#[cfg_attr(not(tool = "synth/tools"), ignore = "needs synth/tools: ./test fetches what is missing")]
 fn a_changed_schedule_is_noticed() {
-    let Some(tools) = Tools::or_skip() else { return };
+    let tools = Tools::find().expect("what synth/tools fetches");
     let target = Target::Icebreaker;
     let (verilog, parameters) = reader(&target.profile(), &target.parameters());
     // What stood there before, or could: each changed in one place of the text.
@@ -81,8 +83,9 @@ fn a_changed_schedule_is_noticed() {
 }
 
 #[test]
+#[cfg_attr(not(tool = "synth/tools"), ignore = "needs synth/tools: ./test fetches what is missing")]
 fn no_two_pads_of_a_board_are_closed() {
-    let Some(tools) = Tools::or_skip() else { return };
+    let tools = Tools::find().expect("what synth/tools fetches");
     for target in Target::ALL {
         let (pads, dead) = (target.profile().pads, target.parameters().dead());
         let verilog = print(Netlist::of(&Pads::new(pads, dead)).top());
@@ -187,7 +190,7 @@ fn board(target: Target) -> (String, Known) {
 /// The claims of a block of every board hold for ever, and what they speak of happens within so
 /// many clocks.
 fn proves(name: &'static str, block: fn(Target) -> (String, Known), cover: u64) {
-    let Some(tools) = Tools::or_skip() else { return };
+    let tools = Tools::find().expect("what synth/tools fetches");
     for target in Target::ALL {
         let (verilog, known) = block(target);
         assert_eq!(
@@ -205,21 +208,25 @@ fn proves(name: &'static str, block: fn(Target) -> (String, Known), cover: u64) 
 }
 
 #[test]
+#[cfg_attr(not(tool = "synth/tools"), ignore = "needs synth/tools: ./test fetches what is missing")]
 fn a_command_writes_what_it_names_and_a_damaged_one_nothing() {
     proves("registers", registers, 15);
 }
 
 #[test]
+#[cfg_attr(not(tool = "synth/tools"), ignore = "needs synth/tools: ./test fetches what is missing")]
 fn packets_are_whole_with_end_at_their_ends_only() {
     proves("stream", stream, 13);
 }
 
 #[test]
+#[cfg_attr(not(tool = "synth/tools"), ignore = "needs synth/tools: ./test fetches what is missing")]
 fn a_byte_that_is_taken_is_on_the_line() {
     proves("transmitter", transmitter, 16);
 }
 
 #[test]
+#[cfg_attr(not(tool = "synth/tools"), ignore = "needs synth/tools: ./test fetches what is missing")]
 fn sdi_rests_while_the_adc_is_read() {
     proves("board", board, 4);
 }
@@ -231,7 +238,7 @@ fn broken(
     mode: Mode,
     changes: &[(&str, &str)],
 ) {
-    let Some(tools) = Tools::or_skip() else { return };
+    let tools = Tools::find().expect("what synth/tools fetches");
     for (printed, instead) in changes {
         let changed = verilog.replace(printed, instead);
         assert_ne!(changed, verilog, "{printed} is printed");
@@ -244,6 +251,7 @@ fn broken(
 }
 
 #[test]
+#[cfg_attr(not(tool = "synth/tools"), ignore = "needs synth/tools: ./test fetches what is missing")]
 fn changed_blocks_are_noticed() {
     let ice = Target::Icebreaker;
     let changes = [
@@ -276,6 +284,7 @@ fn changed_blocks_are_noticed() {
 }
 
 #[test]
+#[cfg_attr(not(tool = "synth/tools"), ignore = "needs synth/tools: ./test fetches what is missing")]
 fn assumptions_that_contradict_each_other_are_noticed() {
     let contradiction =
         "    always @(*) assume (octet == 8'd1 && octet == 8'd2);\n    assign enable =";

@@ -85,8 +85,9 @@ const ASSUMPTIONS: [&str; 4] = [
 ];
 
 #[test]
+#[cfg_attr(not(tool = "synth/tools"), ignore = "needs synth/tools: ./test fetches what is missing")]
 fn every_assumption_of_a_bundled_profile_is_proved() {
-    let Some(tools) = Tools::or_skip() else { return };
+    let tools = Tools::find().expect("what synth/tools fetches");
     let mut found = BTreeSet::new();
     let netlists: Vec<Netlist> = Profile::all().iter().flat_map(blocks).collect();
     for system in with_claims(&netlists) {
@@ -110,8 +111,9 @@ fn narrow_sqrt() -> SquareRoot {
 
 /// Dividers and square roots of other widths than the profiles'.
 #[test]
+#[cfg_attr(not(tool = "synth/tools"), ignore = "needs synth/tools: ./test fetches what is missing")]
 fn division_and_square_root_of_any_width_keep_their_remainder() {
-    let Some(tools) = Tools::or_skip() else { return };
+    let tools = Tools::find().expect("what synth/tools fetches");
     let mut rng = fastrand::Rng::with_seed(15);
     for _ in 0..4 {
         let [numerator, denominator] =
@@ -131,8 +133,9 @@ fn division_and_square_root_of_any_width_keep_their_remainder() {
 /// Another solver on the smallest of these problems of each block, without products: its time grows
 /// faster with their widths.
 #[test]
+#[cfg_attr(not(tool = "synth/tools"), ignore = "needs synth/tools: ./test fetches what is missing")]
 fn another_solver_agrees() {
-    let Some(tools) = Tools::or_skip() else { return };
+    let tools = Tools::find().expect("what synth/tools fetches");
     let netlists = blocks(&Profile::bundled("small").expect("bundled"));
     let mut systems = with_claims(&netlists);
     systems.sort_by_key(|system| (system.name(), system.step(system.claims()[0].1, 1).text.len()));
@@ -163,8 +166,9 @@ fn example(answer: Answer) -> String {
 }
 
 #[test]
+#[cfg_attr(not(tool = "synth/tools"), ignore = "needs synth/tools: ./test fetches what is missing")]
 fn a_claim_with_a_bit_less_is_refuted_with_the_signals_values() {
-    let Some(tools) = Tools::or_skip() else { return };
+    let tools = Tools::find().expect("what synth/tools fetches");
     let profile = Profile::bundled("standard").expect("bundled");
     let netlists = blocks(&profile);
     for system in with_claims(&netlists) {
@@ -183,8 +187,9 @@ fn a_claim_with_a_bit_less_is_refuted_with_the_signals_values() {
 
 /// From reset on: operands that bring about the overflow.
 #[test]
+#[cfg_attr(not(tool = "synth/tools"), ignore = "needs synth/tools: ./test fetches what is missing")]
 fn a_bit_less_is_refuted_by_a_division_from_reset_on() {
-    let Some(tools) = Tools::or_skip() else { return };
+    let tools = Tools::find().expect("what synth/tools fetches");
     for netlist in [Netlist::of(&narrow_divider()), Netlist::of(&narrow_sqrt())] {
         let system = top(&netlist);
         let Some((_, Property::Claim(wire, _))) = system.claims().first().copied() else {
@@ -199,8 +204,9 @@ fn a_bit_less_is_refuted_by_a_division_from_reset_on() {
 
 /// What the proof of a division needs: its invariants, and a caller that holds the denominator.
 #[test]
+#[cfg_attr(not(tool = "synth/tools"), ignore = "needs synth/tools: ./test fetches what is missing")]
 fn a_division_is_not_proved_without_its_invariants_or_its_caller() {
-    let Some(tools) = Tools::or_skip() else { return };
+    let tools = Tools::find().expect("what synth/tools fetches");
     let whole = Netlist::of(&narrow_divider());
     prove(&tools, Solver::Bitwuzla, &top(&whole)).expect("as it is");
     let mut any_caller = whole.clone();
@@ -265,8 +271,9 @@ fn now_and_then(every: usize) -> impl FnMut(usize, &str, Format) -> i64 {
 }
 
 #[test]
+#[cfg_attr(not(tool = "synth/tools"), ignore = "needs synth/tools: ./test fetches what is missing")]
 fn solvers_are_given_the_model() {
-    let Some(tools) = Tools::or_skip() else { return };
+    let tools = Tools::find().expect("what synth/tools fetches");
     follows(&tools, &narrow_divider(), 60, now_and_then(9));
     follows(&tools, &narrow_sqrt(), 60, now_and_then(8));
     let u = |width, frac| Format::unsigned(width, frac);

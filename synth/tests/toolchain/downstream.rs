@@ -28,14 +28,18 @@ fn python() -> String {
     format!("PYTHON={}", root().join(".tools/venv/bin/python").display())
 }
 
-/// Every word of the vectors' frame is one more.
-fn falsify(folder: &Path) {
-    let path = folder.join("vectors/frames.csv");
+/// A target of the Makefile that simulates, and the file of words that it compares: its column of words.
+const TARGETS: [(&str, (&str, usize)); 2] =
+    [("sim_core", ("frames.csv", 2)), ("sim_loop", ("loop_drives.csv", 1))];
+
+/// Every word of a file of the vectors is one more.
+fn falsify(folder: &Path, (name, column): (&str, usize)) {
+    let path = folder.join("vectors").join(name);
     let text = fs::read_to_string(&path).expect("the vectors");
     let changed = text.lines().map(|line| {
         let mut fields: Vec<String> = line.split(',').map(String::from).collect();
-        if let Ok(word) = fields[2].parse::<i64>() {
-            fields[2] = (word + 1).to_string();
+        if let Ok(word) = fields[column].parse::<i64>() {
+            fields[column] = (word + 1).to_string();
         }
         fields.join(",") + "\n"
     });
@@ -43,33 +47,42 @@ fn falsify(folder: &Path) {
 }
 
 #[test]
+#[cfg_attr(not(tool = "synth/tools"), ignore = "needs synth/tools: ./test fetches what is missing")]
 fn the_makefile_lints_and_simulates() {
-    let Some(tools) = Tools::or_skip() else { return };
+    let tools = Tools::find().expect("what synth/tools fetches");
     let folder = users_copy();
-    for profile in ["PROFILE=small", "PROFILE=standard"] {
+    for profile in ["PROFILE=small", "PROFILE=standard", "PROFILE=loop"] {
         let log = tools.run("make", &["lint", profile], folder.path()).unwrap();
         assert!(!log.contains("%Warning"), "{log}");
     }
-    let log = tools.run("make", &["sim"], folder.path()).unwrap();
-    assert!(log.contains("PASSED"), "{log}");
-    falsify(folder.path());
-    let error = tools.run("make", &["sim"], folder.path()).expect_err("a wrong frame").to_string();
-    assert!(error.contains("FAILED"), "{error}");
+    for (target, file) in TARGETS {
+        let log = tools.run("make", &[target], folder.path()).unwrap();
+        assert!(log.contains("PASSED"), "{log}");
+        falsify(folder.path(), file);
+        let run = tools.run("make", &[target], folder.path());
+        let error = run.expect_err("a wrong word").to_string();
+        assert!(error.contains("FAILED"), "{error}");
+    }
 }
 
 #[test]
+#[cfg_attr(not(tool = "synth/tools"), ignore = "needs synth/tools: ./test fetches what is missing")]
 fn cocotb_sees_the_frame_of_the_model() {
-    let Some(tools) = Tools::or_skip() else { return };
+    let tools = Tools::find().expect("what synth/tools fetches");
     let folder = users_copy();
     let log = tools.run("make", &["test", &python()], folder.path()).unwrap();
-    assert!(log.contains("1 tests, 0 failures"), "{log}");
-    falsify(folder.path());
-    tools.run("make", &["test", &python()], folder.path()).expect_err("a wrong frame");
+    assert!(log.contains("2 tests, 0 failures"), "{log}");
+    for (_, file) in TARGETS {
+        falsify(folder.path(), file);
+    }
+    let error = tools.run("make", &["test", &python()], folder.path()).expect_err("wrong words");
+    assert!(error.to_string().contains("2 tests, 2 failures"), "{error}");
 }
 
 #[test]
+#[cfg_attr(not(tool = "synth/tools"), ignore = "needs synth/tools: ./test fetches what is missing")]
 fn fusesoc_lints_and_simulates() {
-    let Some(tools) = Tools::or_skip() else { return };
+    let tools = Tools::find().expect("what synth/tools fetches");
     let folder = users_copy();
     let run = |target: &str, flags: &[&str]| {
         let mut arguments =
@@ -78,10 +91,12 @@ fn fusesoc_lints_and_simulates() {
         arguments.push("hapticore:hapticore:core");
         tools.run("fusesoc", &arguments, folder.path()).unwrap()
     };
-    for flags in [&["--flag", "small"][..], &[]] {
+    for flags in [&["--flag", "small"][..], &["--flag", "loop"], &[]] {
         let log = run("lint", flags);
         assert!(!log.contains("%Warning"), "{log}");
     }
-    let log = run("sim", &[]);
-    assert!(log.contains("PASSED"), "{log}");
+    for target in ["sim", "sim_loop"] {
+        let log = run(target, &[]);
+        assert!(log.contains("PASSED"), "{log}");
+    }
 }

@@ -122,8 +122,9 @@ fn narrow_sqrt() -> Module {
 }
 
 #[test]
+#[cfg_attr(not(tool = "synth/tools"), ignore = "needs synth/tools: ./test fetches what is missing")]
 fn division_is_right_for_all_operands() {
-    let Some(tools) = Tools::or_skip() else { return };
+    let tools = Tools::find().expect("what synth/tools fetches");
     let narrow = narrow_divider();
     holds(&tools, &narrow, &of_divider(&narrow), true);
     let widest = widest_of_profiles("divider");
@@ -131,15 +132,17 @@ fn division_is_right_for_all_operands() {
 }
 
 #[test]
+#[cfg_attr(not(tool = "synth/tools"), ignore = "needs synth/tools: ./test fetches what is missing")]
 fn a_changed_divider_is_noticed() {
-    let Some(tools) = Tools::or_skip() else { return };
+    let tools = Tools::find().expect("what synth/tools fetches");
     let narrow = narrow_divider();
     breaks(&tools, &narrow, &of_divider(&narrow), 12);
 }
 
 #[test]
+#[cfg_attr(not(tool = "synth/tools"), ignore = "needs synth/tools: ./test fetches what is missing")]
 fn square_roots_are_right_for_all_radicands() {
-    let Some(tools) = Tools::or_skip() else { return };
+    let tools = Tools::find().expect("what synth/tools fetches");
     let narrow = narrow_sqrt();
     holds(&tools, &narrow, &sqrt_parameters(&narrow), true);
     let widest = widest_of_profiles("sqrt");
@@ -147,15 +150,17 @@ fn square_roots_are_right_for_all_radicands() {
 }
 
 #[test]
+#[cfg_attr(not(tool = "synth/tools"), ignore = "needs synth/tools: ./test fetches what is missing")]
 fn a_changed_square_root_is_noticed() {
-    let Some(tools) = Tools::or_skip() else { return };
+    let tools = Tools::find().expect("what synth/tools fetches");
     let narrow = narrow_sqrt();
     breaks(&tools, &narrow, &sqrt_parameters(&narrow), 10);
 }
 
 #[test]
+#[cfg_attr(not(tool = "synth/tools"), ignore = "needs synth/tools: ./test fetches what is missing")]
 fn no_two_pads_are_closed_and_a_break_comes_before() {
-    let Some(tools) = Tools::or_skip() else { return };
+    let tools = Tools::find().expect("what synth/tools fetches");
     for profile in Profile::all() {
         holds(&tools, &module(&Multiplexer::new(&profile)), &of_multiplexer(&profile), false);
     }
@@ -170,8 +175,9 @@ fn no_two_pads_are_closed_and_a_break_comes_before() {
 }
 
 #[test]
+#[cfg_attr(not(tool = "synth/tools"), ignore = "needs synth/tools: ./test fetches what is missing")]
 fn a_changed_pad_selection_is_noticed() {
-    let Some(tools) = Tools::or_skip() else { return };
+    let tools = Tools::find().expect("what synth/tools fetches");
     let mut profile = Profile::bundled("small").expect("bundled");
     (profile.slot.open, profile.slot.settle, profile.slot.integrate, profile.pads) = (1, 1, 2, 3);
     breaks(&tools, &module(&Multiplexer::new(&profile)), &of_multiplexer(&profile), 16);

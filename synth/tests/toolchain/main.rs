@@ -13,3 +13,4 @@ mod flow;
 mod formal;
 mod fresh;
 mod isolation;
+mod lint;

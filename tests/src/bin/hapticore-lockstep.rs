@@ -8,7 +8,7 @@ use hapticore_tests::lockstep::Bench;
 use hapticore_tests::lockstep::external::{Simulator, check};
 
 const USAGE: &str = "usage: hapticore-lockstep [--icarus] PROFILE FILE.v…\n\
-    PROFILE is the name of a bundled profile. The files hold the module `hapticore` with the ports of that profile's core.\n\
+    PROFILE is the name of a bundled profile. The files hold the module `hapticore_PROFILE` with the ports of that profile's core.\n\
     Exit status: 0 every output at every clock is the model's, 1 one is not, 2 bad input.";
 
 /// The simulator, the profile and the Verilog of the arguments.

@@ -58,6 +58,8 @@ fn described(options: u8) -> Described {
         },
         bits: [None, Some(2), Some(16), Some(32)][usize::from(options >> 2 & 3)],
         full_scale_v: [None, Some(10.0), Some(1e-300), Some(1e300)][usize::from(options >> 4 & 3)],
+        sample_rate_hz: (options & 64 != 0).then_some(1e6),
+        truncated: options & 128 != 0,
     }
 }
 

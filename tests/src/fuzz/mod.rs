@@ -11,6 +11,7 @@
 //! | `sigmf` | options, meta data, a zero, samples | codes are the ADC's |
 //! | `plan` | TOML | what is accepted is read again to the same plan; its first and last point have names of their own |
 //! | `lab` | setup, places and loads, each ended by a zero | what is accepted makes a calibration that is read again to the same, or is refused |
+//! | `options` | words of a command line | what options hold is read or refused; a scene with keys set is read again to the same |
 //! | `packets` | a profile, then a line | a message that is heard is sent and heard again to the same; the line recovers |
 //! | `core` | choices | a random legal profile, calibration and codes: `clock` = `fixed` = rounded reference |
 //!
@@ -18,10 +19,12 @@
 
 mod calibration;
 mod captures;
+pub mod commands;
 mod core;
 mod lab;
 mod mutate;
 mod mutations;
+mod options;
 mod packets;
 mod plan;
 mod profile;
@@ -37,7 +40,7 @@ use anyhow::Error;
 pub type Target = (&'static str, fn(&[u8]) -> bool);
 
 /// All targets.
-pub const TARGETS: [Target; 10] = [
+pub const TARGETS: [Target; 11] = [
     ("profile", profile::check),
     ("scene", scene::check),
     ("calibration", calibration::check),
@@ -46,6 +49,7 @@ pub const TARGETS: [Target; 10] = [
     ("sigmf", captures::sigmf),
     ("plan", plan::check),
     ("lab", lab::check),
+    ("options", options::check),
     ("packets", packets::check),
     ("core", core::check),
 ];

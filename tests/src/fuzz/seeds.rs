@@ -26,6 +26,7 @@ pub fn of(target: &str) -> Vec<Vec<u8>> {
         "sigmf" => sigmfs(),
         "plan" => bytes(plans()),
         "lab" => bytes(labs()),
+        "options" => bytes(OPTIONS.map(|line| line.replace(' ', "\n")).to_vec()),
         "packets" => packets(),
         "core" => (0..16).map(random).collect(),
         other => panic!("no target {other}"),
@@ -92,7 +93,7 @@ const CSV: &str = "# sample_rate_hz = 1000000\n# bits = 18\ni1,i2,i3,v_sense,v_h
 
 fn csvs() -> Vec<String> {
     let volts = "0# full_scale_v = 10\nv_haptic,i2,_,i1,i3,v_sense\n1.5,-0.25,x,1e-3,9.999,-10\n";
-    vec![format!("0{CSV}"), volts.into(), "11,2,3,4,5,0\n6,7,8,9,10,1\n".into()]
+    vec![format!("0{CSV}"), volts.into(), "91,2,3,4,5,0\n6,7,8,9,10,1\n".into()]
 }
 
 /// The chunks of a WAV file of five channels.
@@ -154,6 +155,18 @@ fn plans() -> Vec<String> {
         \"pad.0.load_g\" = { from = 1.5, to = 20 }\n";
     vec![GRID.into(), RANDOM.into()]
 }
+
+/// Lines whose options have readers of their own.
+const OPTIONS: [&str; 8] = [
+    "simulate minimal-sheet --set pad.0.load_g=50 --set sheet.terminal_ohm=1e3 --waves-window 0..0.5 --bode 0.3",
+    "simulate fig9 --set gap.rung=\"static\" --set control.law=\"open\" --case a --capture c.wav",
+    "simulate minimal-gap --set pad.0.haptic_v_rms={timeline=[[0,0],[1,350]]} --set friction.rung=\"dahl\"",
+    "replay c.csv --channels i1,i2,i3,v_sense,v_haptic,pad --bits 12 --pads 2",
+    "replay c.csv --channels _,v_haptic,i3,i2,v_sense,i1 --full-scale-v 10",
+    "hdl --board ulx3s --control inverse --dac ad5664 --wave sine:250 --out o",
+    "tradeoff --target force=1mN,position=0.1mm,capacitance=0.1% --slots 2 --family ice40",
+    "sweep run --store s {\"count\":1,\"first\":0,\"plan\":\"0\"}",
+];
 
 const SETUP: &str = "pads = 1\nsample_rate_hz = 1e6\ncarrier_hz = 101e3\ncurrent_full_scale_a = 0.004\n\
     sense_full_scale_v = 8.0\nhaptic_full_scale_v = 600.0\n";

@@ -4,7 +4,7 @@
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::verilog::Design;
 use hapticore_model::blocks::core::Core;
-use hapticore_rtl::netlist;
+use hapticore_rtl::header;
 
 use super::Trace;
 use crate::stimulus::Stimulus;
@@ -28,13 +28,13 @@ impl Bench {
         Bench::of(Profile::bundled(profile).expect("bundled"))
     }
 
-    /// The core of any profile that is accepted.
+    /// The core of any profile that is accepted and has no force controller.
     ///
     /// # Panics
     /// Where no core can be built of it.
     pub fn of(profile: Profile) -> Bench {
         let core = Core::new(&profile);
-        Bench { design: Design::print(&netlist::of_core(&core), "a test"), core, profile }
+        Bench { design: header::design(&profile), core, profile }
     }
 
     /// The trace that the model leaves of a stimulus.

@@ -32,10 +32,10 @@ pub struct Case {
 }
 
 /// What came of a case.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct Outcome {
-    /// What happens, in words.
-    pub happens: String,
+    /// What the margins are of, or what was counted: never that all went well, which margins say.
+    pub about: String,
     /// What is measured against its limit, the tightest first.
     pub margins: Vec<Margin>,
     /// The same done to others: floating point, idsp, …; empty where nothing compares.
@@ -69,9 +69,9 @@ pub struct Quantity {
 }
 
 impl Outcome {
-    /// What happens, without margins yet.
-    pub fn new(happens: impl Into<String>) -> Self {
-        Outcome { happens: happens.into(), margins: Vec::new(), rivals: String::new() }
+    /// What is measured, without margins yet.
+    pub fn of(about: impl Into<String>) -> Self {
+        Outcome { about: about.into(), ..Outcome::default() }
     }
 
     /// The same with a comparison that found no difference in so many results.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Hard cases: what usually breaks a fixed-point lock-in, an estimator of force, a force loop or the
-//! device around them; what must happen, what happens, and how far it is from failing.
+//! device around them; what must happen, what is measured, and how far it is from failing.
 //!
 //! A case is declared once, beside the code that runs it. The test `stability` runs every case under
 //! its name and compares its row with `docs/stability.md`; `STABILITY=write` makes that page anew.

@@ -11,7 +11,32 @@ const ROW: &str = "1,2,3,4,5,6,7,8,0";
 fn csv(text: &str, words: &[&str]) {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("bad.csv"), text).unwrap();
-    refuse(folder.path(), &["replay", "bad.csv"], words);
+    let bits: &[&str] = if text.contains("bits") { &[] } else { &["--bits", "18"] };
+    refuse(folder.path(), &[&["replay", "bad.csv"], bits].concat(), words);
+}
+
+#[test]
+fn integer_codes_without_their_bits() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("bad.csv"), format!("{HEADER}\n{ROW}\n")).unwrap();
+    refuse(folder.path(), &["replay", "bad.csv"], &["bad.csv:2: i1", "# bits = N", "--bits N"]);
+}
+
+#[test]
+fn times_of_another_rate() {
+    let row = |n: usize, step: f64| format!("{:.7},1,2,3,4,5,6,7,8\n", n as f64 * step);
+    for step in [2e-6, 5e-7] {
+        let rows: String = (0..20).map(|n| row(n, step)).collect();
+        let header = HEADER.trim_end_matches(",pad");
+        csv(
+            &format!("Time,{header}\n{rows}"),
+            &["bad.csv:", "time: expected a sample each 1e-6 s", "resample"],
+        );
+    }
+    csv(
+        "Time (us),i1,i2,i3,i4,i5,i6,v_sense,v_haptic\n5,1,2,3,4,5,6,7,8\n4,1,2,3,4,5,6,7,8\n",
+        &["bad.csv:3: time: ", "after"],
+    );
 }
 
 #[test]
@@ -66,14 +91,19 @@ fn rows_that_are_cut_short() {
 #[test]
 fn a_pad_out_of_turn() {
     let slot = format!("{ROW}\n").repeat(1700);
-    csv(&format!("{HEADER}\n{slot}{ROW}\n"), &["bad.csv:1702", "pad", "expected 1", "got 0"]);
+    csv(
+        &format!("{HEADER}\n{slot}{ROW}\n"),
+        &["bad.csv:", "sample 1700: pad", "expected 1", "got 0"],
+    );
 }
 
 #[test]
 fn bytes_that_are_no_text() {
     let folder = tempfile::tempdir().unwrap();
-    fs::write(folder.path().join("bad.csv"), [0xff, 0xfe, 0x00, b'\n']).unwrap();
-    refuse(folder.path(), &["replay", "bad.csv"], &["bad.csv:1"]);
+    for bytes in [&[0xc3, 0x28, b'\n'][..], b"i\x001\x00\n\x00"] {
+        fs::write(folder.path().join("bad.csv"), bytes).unwrap();
+        refuse(folder.path(), &["replay", "bad.csv"], &["bad.csv:1"]);
+    }
 }
 
 #[test]

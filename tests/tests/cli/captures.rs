@@ -62,6 +62,71 @@ fn samples_after_the_last_whole_slot_are_reported_and_left_out() {
     assert_eq!(Table::read(&folder.path().join("out/replay-h.csv/frames.csv")).rows.len(), 2);
 }
 
+#[test]
+fn any_number_of_pads_is_served_and_one_that_is_not_the_calibrations_is_said() {
+    let folder = tempfile::tempdir().unwrap();
+    finish(
+        folder.path(),
+        &["simulate", "hockey", "--capture", "h.wav", "--set", "duration_s=0.03"],
+    );
+    for pads in ["1", "5", "256"] {
+        let output = expect(folder.path(), &["replay", "h.wav", "--pads", pads], 0);
+        let log = String::from_utf8(output.stderr).unwrap();
+        assert!(log.contains(&format!("--pads {pads}: the calibration is of ")), "{log}");
+    }
+}
+
+#[test]
+fn what_changes_the_samples_changes_the_folder() {
+    let folder = tempfile::tempdir().unwrap();
+    finish(
+        folder.path(),
+        &["simulate", "hockey", "--capture", "h.csv", "--set", "duration_s=0.03", "--out", "sim"],
+    );
+    let names = "i1,i2,i3,i4,i5,i6,v_sense,v_haptic,pad";
+    let runs: [&[&str]; 5] = [
+        &[],
+        &["--channels", names],
+        &["--full-scale-v", "131072"],
+        &["--skip", "1700"],
+        &["--truncated"],
+    ];
+    for run in runs {
+        expect(folder.path(), &[&["replay", "h.csv"], run].concat(), 0);
+    }
+    assert_eq!(fs::read_dir(folder.path().join("out")).unwrap().count(), runs.len());
+}
+
+#[test]
+fn samples_that_are_lost_break_one_frame_and_leave_the_others_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    finish(
+        folder.path(),
+        &["simulate", "hockey", "--capture", "h.csv", "--set", "duration_s=0.05", "--out", "sim"],
+    );
+    let text = fs::read_to_string(folder.path().join("h.csv")).unwrap();
+    let without_pad =
+        |line: &str| line.rsplit_once(',').map_or(line.into(), |(row, _)| format!("{row}\n"));
+    let lines: Vec<String> = text.lines().map(without_pad).collect();
+    let head = |line: &String| {
+        if line.starts_with('#') { format!("{}\n", line.trim_end()) } else { line.clone() }
+    };
+    let lost = 3 + 9 * 1700 + 500..3 + 9 * 1700 + 800;
+    let kept =
+        lines.iter().enumerate().filter(|(n, _)| !lost.contains(n)).map(|(_, line)| head(line));
+    fs::write(folder.path().join("lost.csv"), kept.collect::<String>()).unwrap();
+    let args = ["replay", "lost.csv", "--calibration", "h.csv.calibration.toml", "--out", "rep"];
+    let output = expect(folder.path(), &args, 0);
+    let log = String::from_utf8(output.stderr).unwrap();
+    assert!(log.contains("1 of ") && log.contains("the first at sample 15300"), "{log}");
+    let [sim, rep] =
+        ["sim", "rep"].map(|name| measured(&folder.path().join(name).join("frames.csv")));
+    assert_eq!(sim.len(), rep.len());
+    let off: Vec<usize> = (0..sim.len()).filter(|n| sim[*n] != rep[*n]).collect();
+    assert_eq!(off, [9]);
+    assert!(rep[9][11].contains("broken"), "{:?}", rep[9]);
+}
+
 /// Amplitudes of the currents, the sensing and the haptic voltage, as fractions of full scale.
 const CURRENTS: [f64; 6] = [0.05, 0.06, 0.08, 0.07, 0.04, 0.03];
 const SENSE: f64 = 0.625;
@@ -87,16 +152,16 @@ with wave.open('sine.wav', 'wb') as f:
 ";
 
 #[test]
+#[cfg_attr(not(tool = "python3"), ignore = "needs python3: ./test fetches what is missing")]
 fn captures_written_by_another_program_are_read_as_meant() {
     let folder = tempfile::tempdir().unwrap();
     let script = SCRIPT
         .replace("CURRENTS", &CURRENTS.map(|a| a.to_string()).join(", "))
         .replace("SENSE", &SENSE.to_string())
         .replace("HAPTIC", &HAPTIC.to_string());
-    match Command::new("python3").args(["-c", &script]).current_dir(folder.path()).status() {
-        Ok(status) => assert!(status.success()),
-        Err(error) => return println!("SKIPPED: no python3: {error}"),
-    }
+    let mut python = Command::new("python3");
+    let status = python.args(["-c", &script]).current_dir(folder.path()).status();
+    assert!(status.expect("Python runs").success());
     for (capture, out) in [("sine.csv", "csv"), ("sine.wav", "wav")] {
         expect(folder.path(), &["replay", capture, "--out", out], 0);
         check_sines(&Table::read(&folder.path().join(out).join("frames.csv")));

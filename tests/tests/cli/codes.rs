@@ -13,7 +13,7 @@ use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::signal::Signal;
 use hapticore_model::blocks::core::{Core, Inputs, Outputs};
 use hapticore_model::blocks::position::TablePort;
-use hapticore_tests::tools::{have, run};
+use hapticore_tests::tools::run;
 
 use crate::{Table, expect, finish, refuse};
 
@@ -172,15 +172,16 @@ endmodule
 ";
 
 #[test]
+#[cfg_attr(
+    not(all(tool = "iverilog", tool = "vvp")),
+    ignore = "needs iverilog, vvp: ./test fetches what is missing"
+)]
 fn verilog_reads_the_same_codes() {
     let folder = tempfile::tempdir().unwrap();
     finish(folder.path(), &[&DEVICE[..], &["--capture", "c.csv"]].concat());
     let codes = from_csv(&text(folder.path(), "csv"));
     let hex = text(folder.path(), "readmemh");
     let width = hex.split_once(" words of ").unwrap().1.split(' ').next().unwrap();
-    if !have(&["iverilog", "vvp"]) {
-        return;
-    }
     fs::write(folder.path().join("bench.v"), BENCH.replace("WIDTH", width)).unwrap();
     fs::write(folder.path().join("codes.hex"), &hex).unwrap();
     run(Command::new("iverilog").args(["-g2005", "-o", "bench", "bench.v"]), folder.path());
@@ -206,12 +207,10 @@ int main(void) {
 ";
 
 #[test]
+#[cfg_attr(not(tool = "gcc"), ignore = "needs gcc: ./test fetches what is missing")]
 fn a_host_in_c_has_the_same_codes() {
     let folder = tempfile::tempdir().unwrap();
     finish(folder.path(), &[&DEVICE[..], &["--capture", "c.csv"]].concat());
-    if !have(&["gcc"]) {
-        return;
-    }
     fs::write(folder.path().join("codes.h"), text(folder.path(), "c")).unwrap();
     fs::write(folder.path().join("host.c"), HOST).unwrap();
     run(

@@ -20,8 +20,8 @@ fn each_converter_has_its_pins_and_no_others() {
     ] {
         let args = [&LOOP[..], &["--dac", dac, "--wave", wave, "--out", dac]].concat();
         expect(folder.path(), &args, 0);
-        assert!(folder.path().join(dac).join("hapticore_loop.v").exists(), "{dac}: the loop");
-        let top = folder.path().join(dac).join("hapticore_drive_output.v");
+        assert!(folder.path().join(dac).join("hapticore_fast_loop.v").exists(), "{dac}: the loop");
+        let top = folder.path().join(dac).join("hapticore_fast_drive_output.v");
         let top = fs::read_to_string(top).expect("the top");
         assert!(top.contains(&format!("--dac {dac} --wave {wave}")), "{dac}: the command");
         assert!(top.contains("output wire dac_live"), "{dac}");
@@ -72,4 +72,74 @@ fn drives_that_cannot_be_are_refused() {
     fs::write(&many, text.replace("\npads = 4", "\npads = 5")).unwrap();
     let args = ["hdl", "--profile", "many.toml", "--control", "inverse", "--dac", "ad5664"];
     refuse(folder.path(), &args, &["pads", "at most 4"]);
+}
+
+/// Modules of an earlier print would be compiled with `*.v`; files of the user stay.
+#[test]
+fn a_print_takes_the_place_of_an_earlier_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let names = || {
+        let entries = fs::read_dir(folder.path().join("out")).unwrap().flatten();
+        let mut names: Vec<_> =
+            entries.map(|entry| entry.file_name().into_string().unwrap()).collect();
+        names.sort();
+        names
+    };
+    expect(folder.path(), &["hdl", "--profile", "small", "--out", "out"], 0);
+    let small = names();
+    fs::write(folder.path().join("out/mine.v"), "module mine; endmodule\n").unwrap();
+    expect(folder.path(), &[&LOOP[..], &["--dac", "pulses", "--out", "out"]].concat(), 0);
+    assert!(names().iter().all(|name| !name.contains("small")), "{:?}", names());
+    expect(folder.path(), &["hdl", "--board", "ulx3s", "--out", "out"], 0);
+    assert_eq!(names(), ["build.sh", "mine.v", "top.v", "ulx3s.lpf"]);
+    expect(folder.path(), &["hdl", "--profile", "small", "--out", "out"], 0);
+    let mut expected = small;
+    expected.push("mine.v".into());
+    expected.sort();
+    assert_eq!(names(), expected);
+}
+
+/// A board has the device's terminals and pads, or says why it cannot have them.
+#[test]
+fn a_board_is_made_for_the_terminals_and_pads_of_the_profile() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = include_str!("../../../model/contract/src/profile/standard.toml");
+    let profile = |pads: u64, terminals: usize| {
+        let signs = |signs: [i64; 8]| format!("{:?}", &signs[..terminals]);
+        let lines = text.lines().map(|line| match line.split_once(" = [") {
+            Some(("x", _)) => format!("x = {}", signs([-1, -1, 1, 1, 0, 0, 1, -1])),
+            Some(("y", _)) => format!("y = {}", signs([1, -1, -1, 1, -1, 1, 0, 0])),
+            _ if line.starts_with("pads = ") => format!("pads = {pads}"),
+            _ => line.to_owned(),
+        });
+        let text: Vec<_> = lines.collect();
+        fs::write(folder.path().join("mine.toml"), text.join("\n")).unwrap();
+    };
+    for (pads, terminals) in [(1, 4), (3, 5), (4, 6)] {
+        profile(pads, terminals);
+        let args = ["hdl", "--board", "ulx3s", "--profile", "mine.toml", "--out", "out"];
+        expect(folder.path(), &args, 0);
+        let constraints = fs::read_to_string(folder.path().join("out/ulx3s.lpf")).unwrap();
+        let ports = |name: &str| {
+            let own = |line: &&str| line.starts_with(&format!("LOCATE COMP \"{name}"));
+            constraints.lines().filter(own).count() as u64
+        };
+        assert_eq!(
+            (ports("pads"), ports("dout")),
+            (pads, terminals as u64 + 2),
+            "{pads}, {terminals}"
+        );
+        let verilog = fs::read_to_string(folder.path().join("out/top.v")).unwrap();
+        let head: Vec<_> = verilog.lines().take(5).collect();
+        for words in ["SPDX-License-Identifier", "digest", "25000000 Hz", "1000000 baud"] {
+            assert!(head.iter().any(|line| line.contains(words)), "{words}: {head:?}");
+        }
+    }
+    for (pads, terminals, words) in [
+        (5, 6, "pads: expected 1 to 4, for ulx3s has no more pins for them; got 5"),
+        (4, 8, "ADC channels: expected 2 to 8, got 10"),
+    ] {
+        profile(pads, terminals);
+        refuse(folder.path(), &["hdl", "--board", "ulx3s", "--profile", "mine.toml"], &[words]);
+    }
 }

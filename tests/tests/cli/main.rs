@@ -4,13 +4,16 @@
 mod bad_captures;
 mod captures;
 mod codes;
+mod documents;
 mod flags;
 mod gallery;
 mod hdl;
 mod knobs;
 mod lab;
 mod lifted;
+mod lines;
 mod messages;
+mod printed_loop;
 mod recorders;
 mod runs;
 mod stability;

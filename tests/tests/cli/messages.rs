@@ -47,12 +47,12 @@ fn a_criterion_that_fails_is_exit_code_1_and_the_results_are_there() {
     )
     .stdout;
     assert!(String::from_utf8(log).unwrap().contains("FAIL"));
-    for name in ["frames.csv", "summary.json", "report.html"] {
+    for name in ["frames.csv", "summary.json", "report.html", "profile.toml"] {
         assert!(folder.path().join("out/strict").join(name).exists(), "{name}");
     }
     assert_eq!(
         fs::read_dir(folder.path().join("out/strict")).unwrap().count(),
-        3,
+        4,
         "nothing else stays behind"
     );
 }

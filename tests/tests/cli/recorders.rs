@@ -271,6 +271,140 @@ fn csv_in_volts_with_a_map_of_its_columns_is_read_as_meant() {
     refuse(&["scope.csv", "--channels", &MAP.replace("i2", "_")], &["--channels", "i2 is missing"]);
 }
 
+/// The signal as volts, each row of it written so.
+fn written(
+    time: impl Fn(usize) -> String,
+    separator: &str,
+    end: &str,
+    number: impl Fn(f64) -> String,
+) -> String {
+    let row = |(n, row): (usize, &[f64; CHANNELS])| {
+        let cells: Vec<String> =
+            std::iter::once(time(n)).chain(row.iter().map(|part| number(10.0 * part))).collect();
+        cells.join(separator) + end
+    };
+    signal(3, 1000.0).iter().enumerate().map(row).collect()
+}
+
+/// Files as oscilloscopes and numpy write them, with eight channels: heads after the manufacturers' manuals
+/// and files that users have published.
+#[test]
+fn files_of_oscilloscopes_are_read_as_meant() {
+    let folder = tempfile::tempdir().unwrap();
+    let channels = |name: &dyn Fn(usize) -> String| (1..=8).map(name).collect::<Vec<_>>().join(",");
+    let plain = |volt: f64| format!("{volt:.7}");
+    let seconds = |n: usize| format!("{:.7e}", n as f64 * 1e-6 - 2e-3);
+    let ch = channels(&|k| format!("CH{k}"));
+    let eight = |word: &str| [word; 8].join(",");
+    let tektronix = format!(
+        "Model,MSO58\nFirmware Version,1.20.3\n\nWaveform Type,ANALOG{0}\nPoint Format,Y{0}\nHorizontal Units,s{0}\n\
+         Horizontal Scale,0.0004{0}\nHorizontal Delay,0{0}\nSample Interval,1e-06{0}\nRecord Length,5100{0}\n\
+         Gating,0.0% to 100.0%{0}\nProbe Attenuation,{1}\nVertical Units,{2}\nVertical Offset,{3}\n,{0}\n,{0}\nTIME,{ch}\n",
+        ",".repeat(7),
+        eight("1"),
+        eight("V"),
+        eight("0")
+    ) + &written(seconds, ",", "\n", plain);
+    let pico =
+        channels(&|k| format!("Channel {}", ['A', 'B', 'C', 'D', 'E', 'F', 'G', 'H'][k - 1]));
+    let picoscope = format!("Time,{pico}\n(us),{}\n\n", eight("(mV)"))
+        + &written(
+            |n| format!("{:.3}", n as f64 - 500.0),
+            ",",
+            "\r\n",
+            |volt| format!("{:.5}", 1e3 * volt),
+        );
+    let rigol =
+        format!("X,{ch},Start,Increment,\nSequence,{},-2.000000e-03,1.000000e-06\n", eight("Volt"))
+            + &written(|n| n.to_string(), ",", ",\n", |volt| format!("{volt:.6e}"));
+    let ampl = channels(&|k| format!("Ampl{k}"));
+    let lecroy = format!(
+        "LECROYHDO8108,12345,Waveform\nSegments,1,SegmentSize,5100\nSegment,TrigTime,TimeSinceSegment1\n#1,24-Feb-2016 16:34:36,0\nTime,{ampl}\n"
+    ) + &written(seconds, ",", "\n", plain);
+    let numpy = String::from("# time i1 i2 i3 i4 i5 i6 v_sense v_haptic\n")
+        + &written(
+            |n| format!("{:.18e}", n as f64 * 1e-6),
+            " ",
+            "\n",
+            |volt| format!("{volt:.18e}"),
+        );
+    let comma = |volt: f64| format!("{volt:.7}").replace('.', ",");
+    let german = format!("Zeit;{}\n", ch.replace(',', ";"))
+        + &written(|n| format!("{:.6}", n as f64 * 1e-6).replace('.', ","), ";", ";\n", comma);
+    let tabs = format!("Time (ms)\t{}\n", ch.replace(',', "\t"))
+        + &written(|n| format!("{:.3}", n as f64 * 1e-3), "\t", "\n", plain);
+    let quoted = format!("\"Time\",\"{}\"\n", ch.replace(',', "\",\""))
+        + &written(
+            |n| format!("\"{:.6}\"", n as f64 * 1e-6),
+            ",",
+            "\n",
+            |volt| format!("\"{}\"", comma(volt)),
+        );
+    let args = ["c.csv", "--full-scale-v", "10", "--channels", MAP];
+    for text in [&tektronix, &picoscope, &rigol, &lecroy, &german, &tabs, &quoted] {
+        fs::write(folder.path().join("c.csv"), text).unwrap();
+        same(folder.path(), &args, 24);
+        let words = ["c.csv:", "expected columns i1", "--channels _,i1,i2"];
+        refuse(folder.path(), &["replay", "c.csv", "--full-scale-v", "10"], &words);
+    }
+    fs::write(folder.path().join("c.csv"), &numpy).unwrap();
+    same(folder.path(), &args[..3], 24);
+    for is_big in [false, true] {
+        let word = |word: u16| if is_big { word.to_be_bytes() } else { word.to_le_bytes() };
+        let marked = std::iter::once(0xfeff).chain(picoscope.encode_utf16());
+        fs::write(folder.path().join("c.csv"), marked.flat_map(word).collect::<Vec<_>>()).unwrap();
+        same(folder.path(), &args, 24);
+    }
+    fs::write(folder.path().join("c.csv"), &picoscope).unwrap();
+    refuse(
+        folder.path(),
+        &["replay", "c.csv", "--channels", MAP],
+        &["c.csv:", "i1: its unit is volts", "--full-scale-v"],
+    );
+    fs::write(folder.path().join("c.csv"), picoscope.replace("(mV)", "(mA)")).unwrap();
+    refuse(
+        folder.path(),
+        &["replay", "c.csv", "--channels", MAP],
+        &["c.csv:", "expected volts", "mA"],
+    );
+    let slow = tektronix.replace("Sample Interval,1e-06", "Sample Interval,2e-06");
+    fs::write(folder.path().join("c.csv"), slow).unwrap();
+    refuse(
+        folder.path(),
+        &[&["replay"], &args[..]].concat(),
+        &["sample_rate_hz", "500000", "resample"],
+    );
+    let one = "LECROYHDO8108,12345,Waveform\nSegments,1,SegmentSize,2\nSegment,TrigTime,TimeSinceSegment1\n#1,now,0\nTime,Ampl\n0,1.5\n1e-6,1.6\n";
+    fs::write(folder.path().join("c.csv"), one).unwrap();
+    refuse(folder.path(), &["replay", "c.csv"], &["c.csv:5: ", "a LeCroy file", "side by side"]);
+    fs::write(folder.path().join("c.csv"), lecroy.replace("Segments,1", "Segments,4")).unwrap();
+    refuse(folder.path(), &[&["replay"], &args[..]].concat(), &["c.csv:", "one segment, got 4"]);
+}
+
+#[test]
+fn a_size_that_a_pipe_cannot_know_is_taken_for_none() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut wav = Wav::default().integers(&signal(3, 1000.0));
+    fs::write(folder.path().join("c.wav"), &wav).unwrap();
+    let expected = replay(folder.path(), &["c.wav"]).rows;
+    let data = wav.len() - 3 * SLOT * CHANNELS * 3 - 4;
+    // What sox writes into the head of a file of 24 bits that goes into a pipe.
+    wav[data..data + 4].copy_from_slice(&0x7fff_eff0u32.to_le_bytes());
+    let output = piped(folder.path(), &[], &wav);
+    assert_eq!(output.status.code(), Some(0), "{output:?}");
+    assert!(
+        String::from_utf8_lossy(&output.stderr).contains("it ends after 5100 samples"),
+        "{output:?}"
+    );
+    assert!(Table::read(&folder.path().join("o/frames.csv")).rows == expected);
+    fs::write(folder.path().join("c.wav"), &wav).unwrap();
+    refuse(folder.path(), &["replay", "c.wav"], &["c.wav", "cut short", "--truncated"]);
+    assert!(replay(folder.path(), &["c.wav", "--truncated"]).rows == expected);
+    wav.truncate(wav.len() - 1700 * CHANNELS * 3 - 5);
+    fs::write(folder.path().join("c.wav"), &wav).unwrap();
+    assert!(replay(folder.path(), &["c.wav", "--truncated"]).rows == expected[..1]);
+}
+
 fn piped(folder: &Path, args: &[&str], bytes: &[u8]) -> Output {
     let mut run = crate::command(folder, &[&["replay", "-", "--out", "o"], args].concat());
     let mut run =
@@ -308,7 +442,7 @@ fn what_a_capture_cannot_mean_is_refused() {
     let header = "i1,i2,i3,i4,i5,i6,v_sense,v_haptic,pad\n";
     let csv = |text: String, words: &[&str]| {
         fs::write(folder.path().join("c.csv"), text).unwrap();
-        refuse(folder.path(), &["replay", "c.csv"], words);
+        refuse(folder.path(), &["replay", "c.csv", "--bits", "18"], words);
     };
     let row = "1,2,3,4,5,6,7,8,0\n";
     csv(

@@ -131,7 +131,7 @@ fn waves_of_an_earlier_run_do_not_stay() {
     );
     assert_eq!(
         run("none"),
-        ["frames.csv", "notes.txt", "report.html", "summary.json", "waves.txt"]
+        ["frames.csv", "notes.txt", "profile.toml", "report.html", "summary.json", "waves.txt"]
     );
 }
 

@@ -179,6 +179,38 @@ fn a_replay_that_waits_for_standard_input_can_be_stopped() {
     drop(input);
 }
 
+/// Places that lie anywhere, of which equations of thousands of unknowns are made.
+fn many_places(folder: &Path) {
+    let mut text = String::from("x_mm,y_mm,i1,i2,i3,i4,v_sense\n");
+    for n in 0..5000u32 {
+        let along = |step: f64| 2.0 * (f64::from(n) * step).fract() - 1.0;
+        let [x, y] = [along(3f64.sqrt()), along(7f64.sqrt())];
+        let current = |side: f64, end: f64| 1e-4 * (1.0 + 0.8 * side * x) * (1.0 + 0.8 * end * y);
+        let [a, b, c, d] =
+            [current(-1.0, 1.0), current(-1.0, -1.0), current(1.0, -1.0), current(1.0, 1.0)];
+        text += &format!("{},{},{a},{b},{c},{d},5\n", 140.0 * x, 90.0 * y);
+    }
+    fs::write(folder.join("places.csv"), text).unwrap();
+    let setup = "pads = 1\nsample_rate_hz = 1e6\ncarrier_hz = 101e3\ncurrent_full_scale_a = 0.004\nsense_full_scale_v = 8\n\
+        haptic_full_scale_v = 600\nforce_k = 9.6e12\n[terminals]\nx = [-1, -1, 1, 1]\ny = [1, -1, -1, 1]\n";
+    fs::write(folder.join("setup.toml"), setup).unwrap();
+}
+
+#[test]
+fn a_calibration_that_is_told_to_stop_stops_within_a_second() {
+    let folder = tempfile::tempdir().unwrap();
+    many_places(folder.path());
+    let args = ["calibrate", "places.csv", "setup.toml", "--out", "mine.toml"];
+    let mut run = crate::command(folder.path(), &args).stderr(Stdio::null()).spawn().unwrap();
+    std::thread::sleep(Duration::from_secs(2));
+    assert!(run.try_wait().unwrap().is_none(), "it takes longer");
+    let start = std::time::Instant::now();
+    Command::new("kill").args(["-INT", &run.id().to_string()]).status().unwrap();
+    assert_eq!(run.wait().unwrap().code(), Some(130));
+    assert!(start.elapsed() < Duration::from_secs(1), "{:?}", start.elapsed());
+    assert!(!folder.path().join("mine.toml").exists());
+}
+
 #[test]
 fn readme_runs_as_it_says() {
     let folder = tempfile::tempdir().unwrap();

@@ -189,7 +189,11 @@ fn what_a_message_cites_moves_no_cursor() {
     let header = "i1,i2,i3,i4,i5,i6,v_sense,v_haptic\n";
     let cited = format!("{header}1,2,3,\u{1b}[2J\u{202e}{},5,6,7,8\n", "x".repeat(500_000));
     fs::write(folder.path().join("c.csv"), cited).unwrap();
-    refuse(folder.path(), "$H replay c.csv", &["c.csv:2: i4", "\"\\u{1b}[2J\\u{202e}xxx", "…"]);
+    refuse(
+        folder.path(),
+        "$H replay c.csv --bits 18",
+        &["c.csv:2: i4", "\"\\u{1b}[2J\\u{202e}xxx", "…"],
+    );
 }
 
 fn named_pipe(path: &Path) {

@@ -5,17 +5,21 @@ pub mod bench;
 pub mod random;
 
 use anyhow::{Result, anyhow};
-use hapticore_contract::profile::Profile;
+use hapticore_contract::profile::{ForceLaw, Profile};
 use hapticore_host::device::{CONTACT_SHARE, Force};
 use hapticore_host::{DeviceCalibration, Raster, Scales, Signs, open_share};
 use hapticore_scene::{ForcePoint, Plant, Scene};
 
 use crate::inputs;
 use crate::lab::force_table::fit;
+use crate::lab::shares;
 use bench::Bench;
 
 /// Places in a row and rows of the raster that a simulated device is calibrated with.
 const RASTER: [usize; 2] = [121, 71];
+
+/// Of them the shares of the currents are kept at every such column and row.
+const EVERY: usize = 5;
 
 /// Loads, g, and haptic voltages, V rms, at which the friction of a simulated device is measured,
 /// as for the paper's Fig. 6.
@@ -51,7 +55,21 @@ pub fn of_plant(plant: &Plant, profile: &Profile) -> DeviceCalibration {
     let device = plant.device();
     // A pad goes no further: places beyond would be read as those at the edge.
     let map = plant.calibration_map(RASTER[0], RASTER[1], device.pad_diameter_mm / 2.0);
-    let open_share = open_share(map.iter().map(|point| &*point.shares));
+    // Without a sheet, what a terminal between the corners carries is nothing, and no fault.
+    let shares = map.iter().map(|point| &*point.shares);
+    let open_share = if plant.has_sheet() { open_share(shares) } else { 0.0 };
+    let normalised = |shares: &[f64]| {
+        let sum: f64 = shares.iter().sum();
+        shares.iter().map(|share| share / sum).collect()
+    };
+    let coarse = |index: &usize| {
+        (index / RASTER[0]).is_multiple_of(EVERY) && (index % RASTER[0]).is_multiple_of(EVERY)
+    };
+    let by_place: Vec<_> = (0..map.len())
+        .filter(coarse)
+        .map(|index| &map[index])
+        .map(|point| ([point.x_mm, point.y_mm], normalised(&point.shares)))
+        .collect();
     let places =
         map.iter().map(|point| [point.x_mm, point.y_mm, point.r_x, point.r_y, point.sheet_ohm]);
     DeviceCalibration {
@@ -60,6 +78,7 @@ pub fn of_plant(plant: &Plant, profile: &Profile) -> DeviceCalibration {
         terminals: Signs { x: profile.terminals.x.clone(), y: profile.terminals.y.clone() },
         map: Raster { columns: RASTER[0], places: places.collect(), open_share },
         force: None,
+        shares: shares::of(&by_place),
         device: Scales {
             sample_rate_hz: device.sample_rate_hz,
             carrier_hz: device.carrier_hz,
@@ -84,5 +103,7 @@ pub fn nominal(profile: &Profile) -> Result<DeviceCalibration> {
         let terminals = profile.terminals.x.len();
         anyhow!("expected --calibration FILE: the paper's display has six terminals, the profile {terminals}")
     })?;
-    Ok(DeviceCalibration { pads: profile.pads, parts: 1, ..of_plant(&plant, profile) })
+    // Without a bench the force is that of eq. 8, as a table where the profile has one.
+    let force = (profile.force.law == ForceLaw::Table).then(Force::default);
+    Ok(DeviceCalibration { pads: profile.pads, parts: 1, force, ..of_plant(&plant, profile) })
 }

@@ -3,6 +3,7 @@
 
 use anyhow::{Result, bail, ensure};
 
+use super::csv::time;
 use super::stream::Adc;
 
 /// The name of a column that is left out.
@@ -15,6 +16,8 @@ pub enum Column {
     Channel(usize),
     /// The selected pad.
     Pad,
+    /// When the sample was taken.
+    Time,
     /// Nothing that is used.
     LeftOut,
 }
@@ -42,6 +45,7 @@ impl Columns {
             let known = channels.iter().position(|channel| channel == name).map(Column::Channel);
             let column = match name.as_str() {
                 "pad" => Column::Pad,
+                _ if time::named(name).is_some() => Column::Time,
                 LEFT_OUT => Column::LeftOut,
                 _ => match known {
                     Some(known) => known,

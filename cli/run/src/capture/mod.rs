@@ -3,7 +3,7 @@
 //!
 //! | kind | read | written |
 //! | --- | --- | --- |
-//! | CSV: integer codes, or volts | yes, from standard input too | yes |
+//! | CSV: integer codes, or volts; as recorders write it, too | yes, from standard input too | yes |
 //! | WAV: integers of 16 to 32 bits, floats; RIFF, RF64 | yes, from standard input too | yes, RF64 beyond 4 GiB |
 //! | SigMF: real integers and floats | yes | no |
 
@@ -13,6 +13,7 @@ mod input;
 mod partial_file;
 mod raw;
 mod sigmf;
+mod slots;
 mod stream;
 mod wav;
 
@@ -21,6 +22,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, bail};
 
 pub use input::Input;
+pub use slots::{BROKEN, Cut, Shape, Slots};
 pub use stream::{Adc, Described, Recorder, Sampled, Source};
 
 #[derive(Clone, Copy)]
@@ -103,7 +105,7 @@ pub fn read(content: Content, adc: Adc, described: &Described) -> Result<Box<dyn
 /// The folder cannot be written to, or there is a folder of this name.
 pub fn create(path: &Path, adc: Adc, sample_rate_hz: f64) -> Result<Box<dyn Recorder + Send>> {
     Ok(match kind(path)? {
-        Kind::Csv => Box::new(csv::Writer::create(path, adc, sample_rate_hz)?),
+        Kind::Csv => Box::new(csv::write::Writer::create(path, adc, sample_rate_hz)?),
         Kind::Wav => Box::new(wav::write::Writer::create(path, adc, sample_rate_hz)?),
         Kind::Sigmf => {
             bail!("{}: expected a capture whose name ends in .csv or .wav", path.display())

@@ -117,6 +117,9 @@ pub struct Reader {
     sample_rate_hz: f64,
     /// Sample instants in the file, where its head says so.
     instants: Option<u64>,
+    /// What is there is taken where the bytes end before the samples that the head names.
+    is_short_taken: bool,
+    ended_short: bool,
     instant: u64,
     buffer: Vec<u8>,
     rounded: bool,
@@ -142,6 +145,8 @@ impl Reader {
             digitiser: Digitiser::new(adc.format),
             sample_rate_hz: rate,
             instants,
+            is_short_taken: false,
+            ended_short: false,
             instant: 0,
             buffer,
             rounded: false,
@@ -150,21 +155,34 @@ impl Reader {
         }
     }
 
+    /// The same reader, which takes what is there where the bytes end early.
+    pub fn taking_short(self, is_short_taken: bool) -> Self {
+        Reader { is_short_taken, ..self }
+    }
+
     /// Fills the buffer with the next instant; whether there is one.
     fn advance(&mut self) -> Result<bool> {
-        if self.instants == Some(self.instant) {
+        if self.instants == Some(self.instant) || self.ended_short {
             return Ok(false);
         }
         let (file, at) = (&self.input.name, self.instant);
         let mut filled = 0;
         while filled < self.buffer.len() {
             match self.input.bytes.read(&mut self.buffer[filled..]) {
+                Ok(0) if self.is_short_taken => {
+                    self.ended_short = self.instants.is_some() || filled > 0;
+                    return Ok(false);
+                }
                 Ok(0) => match self.instants {
                     Some(all) => {
-                        bail!("{file}: sample {at}: expected {all} samples, the file is cut short")
+                        bail!(
+                            "{file}: sample {at}: expected {all} samples, the file is cut short; --truncated takes what is there"
+                        )
                     }
                     None if filled == 0 => return Ok(false),
-                    None => bail!("{file}: sample {at}: the file is cut short"),
+                    None => bail!(
+                        "{file}: sample {at}: the file is cut short; --truncated takes what is there"
+                    ),
                 },
                 Ok(read) => filled += read,
                 Err(error) if error.kind() == ErrorKind::Interrupted => {}
@@ -193,7 +211,7 @@ impl Source for Reader {
         let mut pad = None;
         for index in 0..self.columns.columns.len() {
             let column = self.columns.columns[index];
-            if column == Column::LeftOut {
+            if matches!(column, Column::LeftOut | Column::Time) {
                 continue;
             }
             let bytes = &self.buffer[index * self.layout.bytes..][..self.layout.bytes];
@@ -213,7 +231,7 @@ impl Source for Reader {
             }
         }
         self.instant += 1;
-        Ok(Some(Sampled { pad }))
+        Ok(Some(Sampled { pad, lost: 0 }))
     }
 
     fn sample_rate_hz(&self) -> Option<f64> {
@@ -236,6 +254,17 @@ impl Source for Reader {
             (
                 self.instants.is_none(),
                 "the file names no length: it was read to its end".to_string(),
+            ),
+            (
+                self.ended_short,
+                format!(
+                    "it ends after {} samples{}: what is there was taken",
+                    self.instant,
+                    self.instants.map_or_else(
+                        || ", within the next".to_string(),
+                        |all| format!(", its head names {all}")
+                    )
+                ),
             ),
         ];
         notes

@@ -45,8 +45,8 @@ pub fn open(
     let block = (layout.bytes * head.channels) as u64;
     let length = input.length.context("expected a file").with_context(|| input.name.clone())?;
     ensure!(
-        length % block == 0,
-        "{}: expected whole samples of {block} bytes: it is cut short",
+        length % block == 0 || described.truncated,
+        "{}: expected whole samples of {block} bytes: it is cut short; --truncated takes what is there",
         input.name
     );
     Ok(Reader::new(input, adc, layout, columns, head.sample_rate_hz, Some(length / block)))

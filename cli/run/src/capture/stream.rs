@@ -27,10 +27,12 @@ pub trait Source {
 }
 
 /// What a row says beside its codes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Sampled {
     /// The selected pad.
     pub pad: Option<usize>,
+    /// Samples that are missing before this one, by a column of times.
+    pub lost: u64,
 }
 
 /// A capture being written.
@@ -74,4 +76,8 @@ pub struct Described {
     pub bits: Option<u8>,
     /// Samples are volts, and this many are the end of the ADC's range.
     pub full_scale_v: Option<f64>,
+    /// The sample rate that a column of times must have.
+    pub sample_rate_hz: Option<f64>,
+    /// What is there of a file that is cut short is taken.
+    pub truncated: bool,
 }

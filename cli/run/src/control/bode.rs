@@ -12,7 +12,7 @@
 
 use std::f64::consts::TAU;
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, ensure};
 use hapticore_scene::Complex;
 
 use super::plant::Excitation;
@@ -50,7 +50,7 @@ impl Sample {
 /// Measures the loop of a case about a force; none where it has no loop. `run` runs the frequencies.
 ///
 /// # Errors
-/// A case that cannot be run.
+/// A case that cannot be run; a force at which the loop does not follow.
 pub fn measure(
     case: &Case,
     settings: &Settings,
@@ -80,7 +80,15 @@ pub fn measure(
         });
         let closed_db = 20.0 * (hold(hz * open.frame_s) * force.norm() / target.norm()).log10();
         let measured = -asked / (asked + added);
-        Ok(BodePoint { hz, open: polar(measured), predicted: polar(open.at(hz)), closed_db })
+        let point =
+            BodePoint { hz, open: polar(measured), predicted: polar(open.at(hz)), closed_db };
+        ensure!(
+            follows(&point),
+            "--bode: expected a force that the loop of case \"{}\" can follow, from its drive's smallest step up to what its \
+             rail gives; at {force_n} N a sine of {hz:.1} Hz moves nothing",
+            case.name()
+        );
+        Ok(point)
     };
     let points = run(&point)?;
     let of = |point: &BodePoint| (point.hz, complex(point.open));
@@ -98,6 +106,13 @@ pub fn measure(
         bandwidth_hz: bandwidth_hz(&points),
         points,
     }))
+}
+
+/// Whether all of a point is a number: drive and force move with the sine. At a rail, and below the smallest step of a
+/// drive, they do not.
+fn follows(point: &BodePoint) -> bool {
+    let numbers = [point.open, point.predicted].concat();
+    numbers.iter().chain([&point.closed_db]).all(|number| number.is_finite())
 }
 
 /// What is left of a sine in steps, each held for so many of its periods: true forces are looked at

@@ -35,6 +35,12 @@ const PICO: f64 = 1e-12;
 /// Readings of a force table at least.
 const TABLE_READINGS: usize = 60;
 
+/// Loads that are all lighter are in kilograms, g.
+const LIGHTEST_G: f64 = 1.0;
+
+/// Loads beyond this are in milligrams, g.
+const HEAVIEST_G: f64 = 1e4;
+
 /// (C·V)² whose least and largest differ by less than this share tell no k.
 const ALIKE: f64 = 0.02;
 
@@ -255,6 +261,7 @@ impl Loads {
             self.loads.iter().any(|load| load.haptic_v_rms > 0.0),
             "{file}: haptic_v_rms: all are 0: force_k is seen with voltage only; expected several, up to the highest that is used"
         );
+        self.check_unit()?;
         if let Some(first) = self.loads[0].load_g {
             let alike = self
                 .loads
@@ -271,6 +278,24 @@ impl Loads {
             );
         }
         Ok(())
+    }
+
+    /// Loads in kilograms are below a gram.
+    fn check_unit(&self) -> Result<()> {
+        let loads = self.loads.iter().filter_map(|load| load.load_g).filter(|load| *load > 0.0);
+        let (least, most) = loads.fold((f64::INFINITY, 0.0), |(low, high), load| {
+            (f64::min(low, load), f64::max(high, load))
+        });
+        let unit = match most {
+            0.0 => return Ok(()),
+            ..LIGHTEST_G => "kilograms",
+            HEAVIEST_G.. => "milligrams",
+            _ => return Ok(()),
+        };
+        bail!(
+            "{}: load_g: the loads are in {unit}: they run from {least} to {most}; expected grams, such as 20 and 100",
+            self.file
+        );
     }
 
     fn check_squares(&self, squares: &[f64]) -> Result<()> {

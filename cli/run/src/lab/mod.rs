@@ -16,14 +16,18 @@
 //! | [`loads`] | friction under known loads and voltages |
 //! | [`wiring`] | terminals that are swapped or reversed |
 //! | [`force_table`] | the force table, from readings and a prior |
+//! | [`plausible`] | places and currents that are in another unit, or from another origin |
+//! | [`shares`] | each terminal's share of the current by place |
 //! | [`least_squares`] | coefficients with their intervals |
 
 pub mod force_table;
 pub mod least_squares;
 pub mod loads;
 pub mod places;
+pub mod plausible;
 pub mod scattered;
 pub mod setup;
+pub mod shares;
 pub mod table;
 pub mod wiring;
 
@@ -50,6 +54,9 @@ use table::Table;
 
 /// Beyond these the currents' scale is no calibration's but a fault's.
 const SCALES: [f64; 2] = [0.8, 1.25];
+
+/// Coefficients of friction beyond these are those of another unit.
+const COEFFICIENTS: [f64; 2] = [0.005, 3.0];
 
 /// What a calibration was made from, and how good it is.
 #[derive(Debug, Clone, Serialize)]
@@ -141,9 +148,10 @@ pub fn calibrate(data: &Data, profile: &Profile) -> Result<(DeviceCalibration, O
     let mut places = Places::of(&data.places, setup.current_full_scale_a)?;
     let columns = places.raster();
     let signs = setup.signs(places.terminals())?;
+    plausible::check_places(&places, setup, &signs)?;
     let uniform = wiring::uniform_sheet(setup)?;
     wiring::check(&places, setup, &signs, uniform.as_ref())?;
-    let mut warnings = Vec::new();
+    let mut warnings = plausible::warnings(&places, setup);
     let (sheet, from) = resistances(&places, setup, uniform.as_ref());
     warnings.extend((from == Resistance::Unknown).then(|| no_resistance(&places.file)));
     let nearest = |at: [f64; 2]| nearest(&places.places, &sheet, at);
@@ -160,6 +168,11 @@ pub fn calibrate(data: &Data, profile: &Profile) -> Result<(DeviceCalibration, O
     })?;
     let scale =
         force.as_ref().and_then(|force| force.current_scale).map_or(1.0, |scale| scale.value);
+    let mu = force.as_ref().and_then(|force| force.mu);
+    warnings.extend(
+        mu.filter(|mu| !(COEFFICIENTS[0]..COEFFICIENTS[1]).contains(&mu.value))
+            .map(|mu| no_friction(mu.value)),
+    );
     warnings.extend((!(SCALES[0]..SCALES[1]).contains(&scale)).then(|| far_off(scale)));
     let sheet: Vec<_> = sheet
         .iter()
@@ -185,6 +198,7 @@ pub fn calibrate(data: &Data, profile: &Profile) -> Result<(DeviceCalibration, O
         },
         force: force.as_ref().and_then(|force| force.table.clone()),
         terminals: signs.clone(),
+        shares: shares::of(&normalised(&places)),
     };
     let profile = buildable(device.profile(profile)?)?;
     let (measured, held_out) =
@@ -243,10 +257,26 @@ fn resistances(places: &Places, setup: &Setup, uniform: Option<&Plant>) -> (Vec<
     }
 }
 
+/// Each place with its terminals' shares of all current.
+fn normalised(places: &Places) -> Vec<([f64; 2], Vec<f64>)> {
+    let share = |place: &Place| {
+        let total = places::total(place);
+        place.siemens.iter().map(|siemens| siemens.norm() / total).collect()
+    };
+    places.places.iter().map(|place| (place.at_mm, share(place))).collect()
+}
+
 fn no_resistance(file: &str) -> String {
     format!(
         "{file}: the sheet's resistance is not in the data and is taken as 0: the capacitance then reads low by (ωCR)²/2, 0.1 % at 200 Ω and \
          318 pF, the force by twice that. Phases of the currents, a column sheet_ohm, or sheet.ohm_per_square and terminals.places_mm tell it"
+    )
+}
+
+fn no_friction(mu: f64) -> String {
+    format!(
+        "the coefficient of friction comes out as {mu:.4}: expected {} to {}: load_g is not in grams, or friction_n not in newtons",
+        COEFFICIENTS[0], COEFFICIENTS[1]
     )
 }
 

@@ -9,7 +9,7 @@ use crate::signal::{Overflow, Rounding, Signal, Value};
 /// A memory of the clocked interpretation.
 #[derive(Debug, Clone, Default)]
 pub struct Codes {
-    words: Vec<i64>,
+    pub(super) words: Vec<i64>,
     data: i64,
 }
 

@@ -74,11 +74,21 @@ pub struct Heading {
     pub source: String,
     /// For the users of the top module: a line each.
     pub interface: Vec<String>,
+    /// What the names of all modules begin with. Two designs of different prefixes may stand in a third.
+    pub prefix: String,
 }
+
+/// The prefix of designs that ask for no other.
+pub const PREFIX: &str = "hapticore";
 
 impl From<&str> for Heading {
     fn from(command: &str) -> Self {
-        Heading { command: command.into(), source: String::new(), interface: Vec::new() }
+        Heading {
+            command: command.into(),
+            source: String::new(),
+            interface: Vec::new(),
+            prefix: PREFIX.into(),
+        }
     }
 }
 
@@ -118,7 +128,7 @@ impl Design {
     /// Prints a netlist.
     pub fn print(netlist: &Netlist, heading: impl Into<Heading>) -> Design {
         let heading = heading.into();
-        let names = names::of_modules(netlist);
+        let names = names::of_modules(netlist, &heading.prefix);
         let print = |(module, name): (&Module, &String)| {
             let text = module::print(netlist, &names, module, name, &heading);
             File { name: name.clone(), text }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Names: of modules, of ports, and of all else within a module, each once.
 
-use super::{Direction, Port};
+use super::{Direction, PREFIX, Port};
 use crate::interpretations::netlist::{Module, Named, Netlist};
 use std::collections::HashSet;
 
@@ -26,16 +26,17 @@ const OWN: [&str; 3] = ["clock", "reset", "unused"];
 
 /// The names of a netlist's modules: the blocks' behind a prefix, with a number where several
 /// differ.
-pub fn of_modules(netlist: &Netlist) -> Vec<String> {
+pub fn of_modules(netlist: &Netlist, prefix: &str) -> Vec<String> {
     let mut names = Names { taken: HashSet::new() };
-    netlist.modules.iter().map(|module| names.unique(&prefixed(module.name))).collect()
+    netlist.modules.iter().map(|module| names.unique(&prefixed(module.name, prefix))).collect()
 }
 
-/// The prefix of all modules: a design may have others.
-const PREFIX: &str = "hapticore";
-
-fn prefixed(block: &str) -> String {
-    if block.starts_with(PREFIX) { block.into() } else { format!("{PREFIX}_{block}") }
+/// A block's name behind the prefix, which stands in place of the usual one where the name begins with that.
+fn prefixed(block: &str, prefix: &str) -> String {
+    match block.strip_prefix(PREFIX) {
+        Some(rest) => format!("{prefix}{rest}"),
+        None => format!("{prefix}_{block}"),
+    }
 }
 
 /// The ports of a module: inputs, then outputs.
@@ -109,6 +110,15 @@ impl Names {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn every_name_begins_with_the_prefix() {
+        assert_eq!(prefixed("divider", PREFIX), "hapticore_divider");
+        assert_eq!(prefixed("hapticore_loop", PREFIX), "hapticore_loop");
+        assert_eq!(prefixed("divider", "hapticore_small"), "hapticore_small_divider");
+        assert_eq!(prefixed("hapticore", "hapticore_small"), "hapticore_small");
+        assert_eq!(prefixed("hapticore_loop", "mine"), "mine_loop");
+    }
 
     #[test]
     fn a_memory_is_numbered_where_its_read_register_has_the_name_of_another_thing() {

@@ -32,6 +32,7 @@ fn every_part_is_printed() {
         command: "a test".into(),
         source: "version 1".into(),
         interface: vec!["For users.".into(), String::new()],
+        prefix: PREFIX.into(),
     };
     let design = Design::of(&parts::parts(), heading);
     check_text("verilog/tests/parts.v", include_str!("tests/parts.v"), &design.text());

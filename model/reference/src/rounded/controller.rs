@@ -192,8 +192,9 @@ impl Controller {
         if off {
             self.clear();
         }
-        let [low, high] = [low, high].map(|limited| limited && !request.lifted);
-        Drive { drive, low, high }
+        let measured = !request.invalid && !request.lifted;
+        let low = low && drive == Exact::ZERO && measured;
+        Drive { drive, low, high: high && drive >= rail && measured }
     }
 
     fn slewed(&self, last: Exact, rises: bool, to: Exact) -> Exact {

@@ -37,6 +37,23 @@ fn a_target_at_the_rail_for_any_time_leaves_nothing_behind() {
     }
 }
 
+/// *Limited* is said of a drive that is at its limit: not while slew holds it, nor of an invalid estimate.
+#[test]
+fn a_drive_is_limited_only_at_its_limit() {
+    for law in Law::ALL {
+        let mut rig = Rig::new(law, |tuning| (tuning.rail, tuning.slew) = (0.4, 0.05));
+        let rail = rig.inputs.tuning.rail;
+        let outputs: Vec<_> = (0..20).map(|_| rig.frame(1.5, 0.02)).collect();
+        assert!(outputs[0].drive < rail && outputs[19].drive == rail, "{law:?}");
+        assert!(outputs.iter().all(|of| (of.high == 1) == (of.drive == rail)), "{law:?}");
+        let held = rig.any_frame(1.5, 0.02, 1);
+        assert_eq!((held.drive, held.high, held.low), (rail, 0, 0), "{law:?}: invalid");
+        rig.inputs.tuning.enable = 0;
+        let off: Vec<_> = (0..20).map(|_| rig.frame(1.5, 0.02)).collect();
+        assert!(off.iter().all(|of| of.high == 0) && off[19].drive == 0, "{law:?}: off");
+    }
+}
+
 /// As at the rail: a force that no drive explains, for however long, with a target of zero.
 #[test]
 fn a_drive_at_zero_for_any_time_leaves_nothing_behind() {

@@ -402,7 +402,10 @@ impl Controller {
         let target = i.target.where_present(self.outputs().target);
         let faults = r.watch.latched;
         let drive = self.off(r, i).select(zero(self.drive), r.drive);
-        Outputs { done: r.done, drive, target, low: r.low, high: r.high, faults }
+        // A drive that slew holds is at no limit yet, and an invalid estimate says nothing of it.
+        let low = r.low & r.drive.is(0) & !i.invalid;
+        let high = r.high & !r.drive.less_than(i.tuning.rail) & !i.invalid;
+        Outputs { done: r.done, drive, target, low, high, faults }
     }
 
     /// What the blocks and memories within give, and whether the task ends with it.

@@ -6,6 +6,7 @@ use crate::support::random::Random;
 use crate::support::{Bench, MILLION, operations};
 use hapticore_contract::profile::{Method, Profile, Window};
 use hapticore_hdl::block::Block;
+use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::{BIT, Format};
 use hapticore_hdl::interpretations::shadow::Shadow;
 use hapticore_hdl::signal::code;
@@ -67,16 +68,56 @@ fn windows_that_are_not_rounded_are_those_of_the_formula() {
     }
 }
 
+/// Also what halving the window leaves, which would be carried from one window to the next.
+#[test]
+fn a_window_that_begins_anew_depends_on_no_window_before() {
+    for profile in Profile::all() {
+        let mut waves = Waves::new(&profile);
+        for samples in 1..40 {
+            (0..samples).for_each(|n| waves.check_sample([false, n == 0]));
+        }
+    }
+}
+
 /// Holds so many samples, begun anew at random, to the reference.
 fn check_waves(profile: &Profile, seed: u64, samples: u64) {
-    let reference = rounded::Oscillator::new(profile);
-    let (mut bench, mut random) = (Bench::new(Oscillator::new(profile)), Random::new(seed));
-    let format = profile.formats.oscillator;
-    let (mut since_restart, mut since_first) = (0, 0);
+    let (mut waves, mut random) = (Waves::new(profile), Random::new(seed));
     for sample in 0..samples {
-        let [restart, first] = [1500, 700].map(|one_in| sample == 0 || random.below(one_in) == 0);
-        since_restart = if restart { 0 } else { since_restart + 1 };
-        since_first = if first { 0 } else { since_first + 1 };
+        let begins = [1500, 700].map(|one_in| sample == 0 || random.below(one_in) == 0);
+        waves.check_sample(begins);
+    }
+}
+
+/// An oscillator beside the reference.
+struct Waves<'a> {
+    profile: &'a Profile,
+    bench: Bench<Oscillator>,
+    reference: rounded::Oscillator,
+    since_restart: u64,
+    since_first: u64,
+}
+
+impl<'a> Waves<'a> {
+    /// Both at reset: waves are zero, and the first sample is that after a restart.
+    fn new(profile: &'a Profile) -> Self {
+        let bench = Bench::new(Oscillator::new(profile));
+        let reference = rounded::Oscillator::new(profile);
+        let mut waves = Waves { profile, bench, reference, since_restart: 0, since_first: 0 };
+        let none = <Outputs as Bundle>::map(waves.bench.block.outputs(), |_| 0);
+        let quiet = Inputs { sample: 0, restart: 0, first: 0 };
+        if profile.carrier.method == Method::Products {
+            assert_eq!(waves.bench.clock(quiet), none, "at reset");
+        }
+        waves.check_sample([true, true]);
+        waves
+    }
+
+    /// Holds a sample to the reference.
+    fn check_sample(&mut self, [restart, first]: [bool; 2]) {
+        let since = |begins: bool, before: u64| if begins { 0 } else { before + 1 };
+        self.since_restart = since(restart, self.since_restart);
+        self.since_first = since(first, self.since_first);
+        let bench = &mut self.bench;
         bench.clock(Inputs { sample: 1, restart: restart.into(), first: first.into() });
         let quiet = Inputs { sample: 0, restart: 0, first: 0 };
         (0..4)
@@ -84,17 +125,19 @@ fn check_waves(profile: &Profile, seed: u64, samples: u64) {
             .find(|out| out.ready == 1)
             .expect("ready after four clocks");
         let out = bench.clock(quiet);
-        let Sample { cosine, sine, window } = reference.sample(since_restart, since_first);
+        let Sample { cosine, sine, window } =
+            self.reference.sample(self.since_restart, self.since_first);
+        let format = self.profile.formats.oscillator;
         let [cosine, sine, window] = [cosine, sine, window].map(|wave| wave.code(format));
-        let phase = match profile.carrier.method {
-            Method::Polyphase => since_restart as i64 % 5,
+        let phase = match self.profile.carrier.method {
+            Method::Polyphase => self.since_restart as i64 % 5,
             Method::Products => 0,
         };
         let expected = Outputs { ready: 0, cosine, sine, window, phase };
         assert_eq!(
             out, expected,
-            "clock {}: sample {since_restart}, of the window {since_first}",
-            bench.clock
+            "clock {}: sample {}, of the window {}",
+            bench.clock, self.since_restart, self.since_first
         );
     }
 }

@@ -37,7 +37,7 @@ pub fn rounding_ties() -> Outcome {
         worst = worst.max((sums[0] / count).abs());
         floor = floor.min(sums[1] / count);
     }
-    Outcome::new("rounds half to even")
+    Outcome::default()
         .equal(compared)
         .at_most("mean error", worst, 1e-12, "LSB")
         .rivals(format!("rounding down (SUServo, PyRPL): mean error {floor:.3} LSB"))
@@ -95,7 +95,7 @@ pub fn operand_patterns() -> Outcome {
         );
         compared += 1;
     }
-    Outcome::new("correctly rounded").equal(compared)
+    Outcome::default().equal(compared)
 }
 
 /// A divider and its formats.
@@ -159,7 +159,7 @@ pub fn quotient_overflow() -> Outcome {
         }
     }
     assert!(saturated > 100, "many of them overflow");
-    Outcome::new(format!("{saturated} saturate with the flag")).equal(compared)
+    Outcome::of(format!("{saturated} saturate with the flag")).equal(compared)
 }
 
 /// Square roots of the largest words of all profiles.
@@ -180,7 +180,7 @@ pub fn square_roots() -> Outcome {
             compared += 1;
         }
     }
-    Outcome::new("correctly rounded").equal(compared)
+    Outcome::default().equal(compared)
 }
 
 fn check_sqrt(block: &SquareRoot, radicand: Format, frac: i8, of: i64) {

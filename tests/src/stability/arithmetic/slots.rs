@@ -33,7 +33,7 @@ pub fn most_negative_code() -> Outcome {
             assert!(frame.flags.clipped, "{alone:?}");
         }
     });
-    Outcome::new("flagged; no overflow").equal(compared)
+    Outcome::default().equal(compared)
 }
 
 /// Rectangular waves between the rails.
@@ -50,7 +50,7 @@ pub fn full_scale_square_wave() -> Outcome {
             assert!(frame.flags.clipped);
         }
     });
-    Outcome::new("flagged; no overflow").equal(compared)
+    Outcome::default().equal(compared)
 }
 
 /// A good slot, then one without a result.
@@ -78,7 +78,7 @@ pub fn zero_and_negative_denominators() -> Outcome {
             assert!(!last_valid.flags.invalid, "right again in the next slot");
         }
     });
-    Outcome::new("held and flagged; the next slot is right again").equal(compared)
+    Outcome::default().equal(compared)
 }
 
 /// Ratios to the rails.
@@ -116,7 +116,7 @@ pub fn table_edges_and_corners() -> Outcome {
             all += 1;
         }
     }
-    Outcome::new(format!("{invalid} of {all} are invalid")).equal(all).at_most(
+    Outcome::of(format!("{invalid} of {all} are invalid")).equal(all).at_most(
         "place beyond the edge",
         beyond.max(0.0),
         0.01,
@@ -134,7 +134,7 @@ pub fn phase_wrap() -> Outcome {
             assert_eq!(everyone.slot(&codes), first, "slot {slot}");
         }
     });
-    Outcome::new("the same frame 300 times").equal(compared)
+    Outcome::default().equal(compared)
 }
 
 /// A pad in the middle.
@@ -152,7 +152,7 @@ pub fn negative_zero() -> Outcome {
             compared += 1;
         }
     }
-    Outcome::new("written `0`").holds(compared)
+    Outcome::default().holds(compared)
 }
 
 /// Amplitude over the phase.
@@ -180,7 +180,7 @@ pub fn rounding_seen_as_phase() -> Outcome {
             [f64::min, f64::max].map(|of| errors.iter().copied().reduce(of).expect("phases"));
         (high - low) / 2.0
     };
-    Outcome::new("profile `standard`: the capacitance does not depend on the phase")
+    Outcome::of("profile `standard`")
         .at_most("change with the phase", found(true), 0.05, "%")
         .rivals(format!(
             "what the ADC's rounding alone does in floating point: {} %",

@@ -74,7 +74,7 @@ pub fn plant_half_off() -> Outcome {
         .par_iter()
         .map(|((law, _), (_, plant))| at_rest(&run(*law, &[*plant], |_| false)))
         .collect();
-    let mut outcome = Outcome::new("");
+    let mut outcome = Outcome::default();
     let mut errors = Vec::new();
     for (law, name) in CLOSED {
         let of_law = || all.iter().zip(&found).filter(|(((of, _), _), _)| *of == law);
@@ -88,7 +88,7 @@ pub fn plant_half_off() -> Outcome {
         errors.push(format!("{name}: {}", texts.join(", ")));
         outcome = outcome.at_most(format!("drive at rest, law {name}"), spread, 200.0, "LSB");
     }
-    outcome.happens = format!("true force off 0.3 N, %: {}", errors.join("; "));
+    outcome.about = format!("true force off 0.3 N, %: {}", errors.join("; "));
     outcome
 }
 
@@ -99,7 +99,7 @@ pub fn pull_in_under_control() -> Outcome {
         let over = targets.par_iter().map(|target| overshoot_n(&follow(&LAWS[law], target, 50.0)));
         1e3 * over.reduce(|| 0.0, f64::max)
     });
-    Outcome::new("follows; overshoot of the true force")
+    Outcome::of("overshoot of the true force")
         .at_most("law inverse with force table", closed, 50.0, "mN")
         .rivals(format!("open loop (eq. 9): {open:.0} mN"))
 }
@@ -118,6 +118,5 @@ pub fn line_lost_under_load() -> Outcome {
         }
         assert!(slots[340].drive.faults.sensor && slots[340].force_n < 1e-3, "{name}");
     }
-    Outcome::new("the drive is held for 7 frames, then zero for good: never more than before")
-        .equal(frames)
+    Outcome::default().equal(frames)
 }

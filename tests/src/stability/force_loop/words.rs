@@ -13,7 +13,7 @@ const TARGETS_N: [f64; 5] = [0.011, 0.051, 0.093, 0.171, 0.244];
 
 /// What narrowing leaves of the force at rest, for ever.
 pub fn rounding_bias() -> Outcome {
-    let mut outcome = Outcome::new("the state comes back");
+    let mut outcome = Outcome::default();
     let (mut frames, mut step_n) = (0, 0.0);
     for law in [Law::Proportional, Law::Integral] {
         let mut worst = 0f64;
@@ -45,7 +45,7 @@ pub fn rounding_bias() -> Outcome {
 
 /// The words of a loop at rest.
 pub fn limit_cycle() -> Outcome {
-    let mut outcome = Outcome::new("the drive word at rest, for ever");
+    let mut outcome = Outcome::default();
     let mut frames = 0;
     for law in Law::ALL {
         let mut most = 0;
@@ -82,7 +82,7 @@ fn frames_to(forces: &[f64], target_n: f64) -> usize {
 /// A target that no drive gives, and back.
 pub fn one_sided_rail() -> Outcome {
     let mut outcome =
-        Outcome::new("frames until within 1 % of 0.1 N, after 1,000 frames at the rail");
+        Outcome::of("frames until within 1 % of 0.1 N, after 1,000 frames at the rail");
     for law in [Law::Proportional, Law::Integral, Law::Inverse] {
         let mut rig = Rig::new(law, |tuning| tuning.rail = 0.7);
         rig.frames(1.5, 1000);
@@ -130,7 +130,7 @@ pub fn largest_error_and_gain() -> Outcome {
         let seen = Seen { target_n, force_n: 0.0, capacitance_pf: 300.0 };
         Linien::new(Gains { proportional: 900.0, integral: 0.0 }).volts(&seen)
     };
-    Outcome::new("saturates: never the wrong way").holds(frames).rivals(format!(
+    Outcome::default().holds(frames).rivals(format!(
         "Linien's proportional part wraps: {:+.0} V of 500 V for an error of 0.5 N, {:+.0} V for 0.6 N",
         volts(0.5),
         volts(0.6)
@@ -156,7 +156,7 @@ pub fn rail_for_a_million_frames() -> Outcome {
         assert_eq!(rig.state(), first[3], "{law:?}");
         frames += 10_004;
     }
-    Outcome::new("the state after three frames is that after any number").equal(frames)
+    Outcome::default().equal(frames)
 }
 
 /// Estimates that are invalid for long, once it is at rest.
@@ -177,8 +177,7 @@ pub fn sensor_invalid() -> Outcome {
         let after = rig.frames(0.1, 2000).drive;
         assert!((after - held).abs() as f64 <= 2e-3 * held as f64, "{law:?}: {after} of {held}");
     }
-    Outcome::new("held for 7 frames, then zero until the fault is cleared; then as before")
-        .equal(frames)
+    Outcome::default().equal(frames)
 }
 
 /// Nobody is there to ask for a force.
@@ -199,7 +198,7 @@ pub fn host_silent() -> Outcome {
         rig.alive = true;
         assert_eq!(rig.frame(0.1).drive, 0, "{law:?}: latched");
     }
-    Outcome::new("zero from the 100th millisecond on, until the fault is cleared").holds(frames)
+    Outcome::default().holds(frames)
 }
 
 /// Other gains in each clock of a frame, although their words should be stable then.
@@ -226,7 +225,5 @@ pub fn gains_changed_in_mid_frame() -> Outcome {
             frames += 1;
         }
     }
-    Outcome::new("one drive word of both, within its rail; then the loop rests where it does with the new gains")
-        .at_most("force at rest", worst, 2.0, "steps of its word")
-        .holds(frames)
+    Outcome::default().at_most("force at rest", worst, 2.0, "steps of its word").holds(frames)
 }

@@ -107,7 +107,7 @@ pub fn without_dither() -> Outcome {
 /// The core's error over that of floating point and of its own words.
 fn outcome(sweeps: &[Sweep]) -> Outcome {
     let standard = &sweeps[1];
-    let mut outcome = Outcome::new(format!("`standard`: {}", told(standard, |point| point.core)));
+    let mut outcome = Outcome::of(format!("`standard`: {}", told(standard, |point| point.core)));
     for sweep in sweeps {
         let bench = Bench::of(sweep.name);
         let full_scale = sweep.points.last().expect("amplitudes").core;

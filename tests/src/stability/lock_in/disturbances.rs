@@ -15,7 +15,7 @@ pub fn sample_rate_hz(name: &str) -> f64 {
 
 /// A constant in every channel.
 pub fn offset_of_half_scale() -> Outcome {
-    let mut outcome = Outcome::new("capacitance unchanged");
+    let mut outcome = Outcome::of("change of the capacitance");
     let mut idsp = 0.0;
     for bench in Bench::all() {
         let pad = Pad { sense: 0.4, ..bench.pad(0.3) };
@@ -37,7 +37,7 @@ pub fn offset_of_half_scale() -> Outcome {
 
 /// Haptic leakage far above the carrier.
 pub fn leakage_above_the_carrier() -> Outcome {
-    let mut outcome = Outcome::new("the capacitance changes by");
+    let mut outcome = Outcome::of("change of the capacitance");
     let mut rivals = Vec::new();
     for decibels in [11.0, 40.0] {
         let ratio = 10f64.powf(decibels / 20.0);
@@ -96,7 +96,7 @@ fn reserve_db(bench: &Bench, turns: f64, measure: &dyn Fn(&[i32]) -> f64) -> f64
 
 /// Reserve over the frequency.
 pub fn dynamic_reserve() -> Outcome {
-    let mut outcome = Outcome::new("reserve, least over the frequencies");
+    let mut outcome = Outcome::of("reserve, least over the frequencies");
     let mut rivals = Vec::new();
     for name in PROFILES {
         let bench = Bench::of(name);
@@ -121,7 +121,7 @@ pub fn dynamic_reserve() -> Outcome {
 
 /// A carrier that is not the oscillator's.
 pub fn carrier_detuned() -> Outcome {
-    let mut outcome = Outcome::new("the capacitance's error");
+    let mut outcome = Outcome::of("error of the capacitance");
     let mut float = [0.0; 2];
     for bench in Bench::all() {
         let pad = bench.pad(0.3);

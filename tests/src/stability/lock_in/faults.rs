@@ -29,7 +29,7 @@ pub fn zero_input() -> Outcome {
         Some(left) => format!("{left} steps of its word left"),
         None => "overflow of a sum of 32 bits".into(),
     });
-    Outcome::new("the same frame 200 times")
+    Outcome::default()
         .equal(compared)
         .at_most("sums", largest, 1e-3, "LSB of the ADC")
         .rivals(format!(
@@ -52,12 +52,12 @@ pub fn full_scale_steps() -> Outcome {
             compared += 1;
         }
     }
-    Outcome::new("no trace of the loud slot").equal(compared)
+    Outcome::default().equal(compared)
 }
 
 /// A window with one set of codes less, or more.
 pub fn missing_and_repeated_samples() -> Outcome {
-    let mut outcome = Outcome::new("the capacitance's error");
+    let mut outcome = Outcome::of("error of the capacitance");
     let (mut compared, mut float) = (0, 0f64);
     for bench in Bench::all() {
         let (pad, middle) = (
@@ -91,7 +91,7 @@ pub fn missing_and_repeated_samples() -> Outcome {
 
 /// One terminal beyond full scale.
 pub fn clipping_in_one_channel() -> Outcome {
-    let mut outcome = Outcome::new("flagged; the clipped current is short by");
+    let mut outcome = Outcome::of("error of the clipped current");
     for bench in Bench::all() {
         let plain = bench.measure(&bench.codes(&bench.pad(0.96)));
         assert!(!plain.flags.clipped);
@@ -147,12 +147,12 @@ pub fn line_faults() -> Outcome {
             compared += 1;
         }
     }
-    Outcome::new("flagged").holds(compared)
+    Outcome::default().holds(compared)
 }
 
 /// Bits that do not move.
 pub fn stuck_bit() -> Outcome {
-    let mut outcome = Outcome::new("as floating point on the same codes");
+    let mut outcome = Outcome::of("departure from floating point on the same codes");
     let (mut compared, mut worst) = (0, 0f64);
     for bench in Bench::all() {
         let (pad, channels) = (bench.pad(0.3), bench.profile.channels());

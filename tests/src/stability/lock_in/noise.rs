@@ -18,7 +18,7 @@ const NOISE: f64 = 0.02;
 
 /// Variance of the total current against the bound.
 pub fn cramer_rao_bound() -> Outcome {
-    let mut outcome = Outcome::new("variance above the bound");
+    let mut outcome = Outcome::of("variance above the bound");
     let mut rivals = String::new();
     for bench in Bench::all() {
         let found = excess_db(&bench);

@@ -21,7 +21,7 @@ const SWING: f64 = 0.475;
 
 /// A sine through force.
 pub fn sinad_of_the_force() -> Outcome {
-    let mut outcome = Outcome::new("signal to noise and distortion of the force");
+    let mut outcome = Outcome::of("signal to noise and distortion of the force");
     let mut rivals = Vec::new();
     for bench in Bench::all() {
         let forces = forces(&bench);
@@ -105,7 +105,7 @@ fn effective_bits(sinad_db: f64) -> f64 {
 
 /// A sine of amplitudes.
 pub fn integral_nonlinearity() -> Outcome {
-    let mut outcome = Outcome::new("departure of the capacitance, over 10 to 90 % of its range");
+    let mut outcome = Outcome::of("departure of the capacitance, over 10 to 90 % of its range");
     for bench in Bench::all() {
         let (input, output) = amplitudes(&bench);
         let name = &bench.profile.name;

@@ -87,7 +87,7 @@ fn frames_of_first_round(bench: &Bench) -> [Frame; 4] {
 
 fn ten_million_samples() -> Outcome {
     let slots = Bench::all().iter().map(|bench| repeat(bench, 10_000_000)).sum();
-    Outcome::new("force, position, flags and all: the same").equal(slots)
+    Outcome::default().equal(slots)
 }
 
 /// The same at every clock, until so many samples of whole slots have been seen: slots, each but those of the first round
@@ -111,13 +111,12 @@ pub fn repeat_every_clock(bench: &Bench, samples: u64) -> u64 {
 
 fn every_clock() -> Outcome {
     let slots = Bench::all().iter().map(|bench| repeat_every_clock(bench, 100_000)).sum();
-    Outcome::new("the same").equal(slots)
+    Outcome::default().equal(slots)
 }
 
 fn phase_for_ever() -> Outcome {
     let words: usize = PROFILES.map(recurring_state).iter().sum();
-    Outcome::new("registers, memory words and carrier are those of the round before")
-        .equal(words as u64)
+    Outcome::default().equal(words as u64)
 }
 
 fn sequence_numbers_wrap() -> Outcome {
@@ -142,5 +141,5 @@ fn sequence_numbers_wrap() -> Outcome {
         }
     }
     assert!((numbers.len() as u64) < seen, "numbers wrap");
-    Outcome::new(format!("{} numbers, each again and again", numbers.len())).equal(seen)
+    Outcome::of(format!("{} sequence numbers", numbers.len())).equal(seen)
 }

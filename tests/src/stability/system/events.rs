@@ -33,7 +33,7 @@ fn list(fates: &Fates) -> String {
 pub fn upset_registers() -> Outcome {
     let all = upsets(registers, [400, 100, 100], [usize::MAX, 600, 600]);
     let for_good: u64 = all.stays.values().map(|[_, wrong]| wrong).sum();
-    happens(&all)
+    counted(&all)
         .at_most("upsets with wrong frames for good", for_good as f64, 0.0, "")
         .at_most("wrong frames of a pad", all.most as f64, 1.0, "")
         .at_most("right again after", all.rounds, 1.5, "rounds")
@@ -43,7 +43,7 @@ pub fn upset_registers() -> Outcome {
 /// Some bits of the memories, tables among them, which nothing writes again but a calibration.
 pub fn upset_memories() -> Outcome {
     let all = upsets(memories, [60; 3], [500; 3]);
-    happens(&all)
+    counted(&all)
         .at_most("wrong frames of a pad, where it recovers", all.most as f64, 1.0, "")
         .equal(all.recovered)
 }
@@ -59,14 +59,14 @@ fn upsets(sites: fn(&Device) -> Vec<Site>, few: [usize; 3], many: [usize; 3]) ->
     all
 }
 
-fn happens(all: &Fates) -> Outcome {
+fn counted(all: &Fates) -> Outcome {
     let [wrong, flagged] = all.frames;
     let repeats: Vec<_> = all.repeats.iter().map(|name| format!("`{name}`")).collect();
     let repeats = match repeats.is_empty() {
         true => String::new(),
         false => format!("; a pad has more than one after some of {}", repeats.join(", ")),
     };
-    Outcome::new(format!(
+    Outcome::of(format!(
         "{} upsets, {} of them in no frame; {wrong} wrong frames, {flagged} flagged{repeats}; frames stay wrong after some of (upsets that left a trace; with wrong frames): {}",
         all.unseen + all.seen,
         all.unseen,
@@ -102,7 +102,7 @@ pub fn clear_in_mid_frame() -> Outcome {
         };
         at_random(&device, &steady, clear, 0)
     });
-    Outcome::new("no wrong frame; the next slot is the first pad's").equal(count.iter().sum())
+    Outcome::default().equal(count.iter().sum())
 }
 
 /// Every register to zero.
@@ -116,7 +116,7 @@ pub fn reset_in_mid_frame() -> Outcome {
         };
         at_random(&device, &steady, reset, 0)
     });
-    Outcome::new("no wrong frame; the next slot is the first pad's").equal(count.iter().sum())
+    Outcome::default().equal(count.iter().sum())
 }
 
 /// Other gains and another position table, while slots go on.
@@ -139,6 +139,5 @@ pub fn calibration_changed_in_mid_frame() -> Outcome {
         };
         at_random(&before, &from, change, 1)
     });
-    Outcome::new("at most the frame under way mixes both; then as if always so calibrated")
-        .equal(count.iter().sum())
+    Outcome::default().equal(count.iter().sum())
 }

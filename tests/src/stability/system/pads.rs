@@ -28,7 +28,7 @@ pub fn no_pad() -> Outcome {
             }
         }
     }
-    Outcome::new(format!("{invalid} of {compared} frames flagged")).at_most(
+    Outcome::of(format!("{invalid} of {compared} frames flagged")).at_most(
         "capacitance where no flag is set",
         largest,
         0.1,
@@ -38,7 +38,7 @@ pub fn no_pad() -> Outcome {
 
 /// A pad that is lifted: half the current with every step.
 pub fn vanishing_capacitance() -> Outcome {
-    let mut outcome = Outcome::new("right until it is flagged, or nothing (0 pF)");
+    let mut outcome = Outcome::default();
     for bench in Bench::all() {
         let (mut worst, mut fixed, mut flagged) = (0f64, bench.fixed(), None);
         for step in 0..48 {
@@ -93,7 +93,7 @@ const NEAR: f64 = 0.75;
 
 /// Towards the corners of the sheet, and the middles of its long edges.
 pub fn pad_near_each_terminal() -> Outcome {
-    let mut outcome = Outcome::new("no flag; place beside floating point's");
+    let mut outcome = Outcome::of("departure from floating point's place");
     for bench in Bench::all() {
         let mut worst = 0f64;
         for (u, v) in
@@ -140,7 +140,7 @@ pub fn terminal_dropped() -> Outcome {
             compared += 3;
         }
     }
-    Outcome::new("flagged from the next frame on; right again once mended").equal(compared)
+    Outcome::default().equal(compared)
 }
 
 /// No haptic voltage.
@@ -154,7 +154,7 @@ pub fn no_haptic_voltage() -> Outcome {
             compared += 1;
         }
     }
-    Outcome::new("exactly zero").equal(compared)
+    Outcome::default().equal(compared)
 }
 
 /// The frames of three rounds of pads, of both fidelities, which are the same.
@@ -191,7 +191,7 @@ pub fn neighbours_at_full_swing() -> Outcome {
             compared += 1;
         }
     }
-    Outcome::new("not a bit of its frame changes").equal(compared)
+    Outcome::default().equal(compared)
 }
 
 /// Two pads that change places.
@@ -210,7 +210,7 @@ pub fn pads_swapped() -> Outcome {
         }
         assert_ne!(before[0].codes, before[1].codes);
     }
-    Outcome::new("their frames change places").equal(compared)
+    Outcome::default().equal(compared)
 }
 
 /// Something that changes within a window, as the core and floating point see it.
@@ -229,7 +229,7 @@ fn within(bench: &Bench, codes: Vec<i32>, steady: &[i32]) -> (f64, f64) {
 
 /// The haptic voltage and the capacitance change within a window, one early and one late.
 pub fn haptic_voltage_skewed() -> Outcome {
-    let mut outcome = Outcome::new("as floating point on the same codes");
+    let mut outcome = Outcome::of("departure from floating point on the same codes");
     let (mut worst, mut compared) = (0f64, 0);
     for bench in Bench::all() {
         let pad = Pad { haptic: 0.5, ..bench.pad(0.5) };
@@ -272,7 +272,7 @@ pub fn haptic_voltage_skewed() -> Outcome {
 
 /// The gap closes: the current trebles in mid-window.
 pub fn pull_in_inside_a_slot() -> Outcome {
-    let mut outcome = Outcome::new("between both, as in floating point; the next frame is right");
+    let mut outcome = Outcome::of("departure from floating point on the same codes");
     let mut compared = 0;
     for bench in Bench::all() {
         let pad = bench.pad(0.3);
@@ -295,7 +295,7 @@ pub fn pull_in_inside_a_slot() -> Outcome {
 
 /// The window begins before what switching left has gone.
 pub fn switching_before_settling() -> Outcome {
-    let mut outcome = Outcome::new("as floating point on the same codes; the next frame is right");
+    let mut outcome = Outcome::of("departure from floating point on the same codes");
     let (mut compared, mut float) = (0, 0f64);
     for bench in Bench::all() {
         let (pad, blanked) = (bench.pad(0.3), bench.profile.slot.blanking() as f64);

@@ -34,20 +34,23 @@ pub fn open(mut input: Input, adc: Adc, described: &Described) -> Result<Reader>
         .with_context(|| name.clone())?;
     let layout = layout(&head, described).with_context(|| name.clone())?;
     let block = head.block_bytes as u64;
-    if let Some(length) = length {
+    // A recorder that writes into a pipe cannot know the length: sox names 0x7fffeff0 bytes or so.
+    let is_short_taken = described.truncated || input.length.is_none();
+    if let Some(length) = length.filter(|_| !is_short_taken) {
         ensure!(
             length % block == 0,
-            "{name}: expected whole samples of {block} bytes, got {length} bytes: it is cut short"
+            "{name}: expected whole samples of {block} bytes, got {length} bytes: it is cut short; --truncated takes what is there"
         );
     }
-    Ok(Reader::new(
+    let reader = Reader::new(
         input,
         adc,
         layout,
         columns,
         f64::from(head.sample_rate),
         length.map(|length| length / block),
-    ))
+    );
+    Ok(reader.taking_short(is_short_taken))
 }
 
 fn layout(head: &Head, described: &Described) -> Result<Layout> {

@@ -143,6 +143,28 @@ fn constants_settle_bits() {
     });
 }
 
+/// Two settled bits are one bit, of a word of three bits an order that its format decides is none.
+#[test]
+fn formats_and_constants_settle_orders() {
+    with_bit(|a| {
+        let [no, yes] = [false, true].map(|code| bit::<Node>(code).value);
+        assert_eq!([!bit::<Node>(true), !bit::<Node>(false)].map(|bit| bit.value), [no, yes]);
+        let word = a.concat(a).concat(a);
+        let number = |real, format: Format| crate::signal::constant::<Node>(real, format);
+        let (whole, halves) = (Format::signed(6, 0), Format::signed(6, 1));
+        let order = |a: Signal<Node>, b: Signal<Node>| settled(a.less_than(b).value);
+        assert_eq!(order(word, number(0.0, whole)), Some(0));
+        assert_eq!(order(word, number(0.5, halves)), None);
+        assert_eq!(order(word, number(7.0, halves)), None);
+        assert_eq!(order(word, number(7.5, halves)), Some(1));
+        assert_eq!(order(number(7.0, whole), word), Some(0));
+        assert_eq!(order(number(6.5, halves), word), None);
+        assert_eq!(order(number(-0.5, halves), word), Some(1));
+        assert_eq!(order(number(0.0, whole), word), None);
+        assert_eq!(order(number(1.0, whole), number(1.5, halves)), Some(1));
+    });
+}
+
 #[test]
 fn constants_and_equal_alternatives_settle_choices() {
     with_bit(|bit_signal| {
