@@ -76,7 +76,7 @@ struct Bench<'a> {
     core: Simulation,
     inputs: Vec<i64>,
     outputs: [usize; 5],
-    frame: [usize; 7],
+    frame: [usize; 8],
     valid_and_channel: [usize; 2],
     channel: usize,
     clock: i64,
@@ -103,6 +103,7 @@ impl<'a> Bench<'a> {
                 "saturated",
                 "invalid",
                 "lost",
+                "lifted",
             ]),
             valid_and_channel: ports.outputs(["valid", "channel"]),
             channel: 0,
@@ -150,7 +151,7 @@ impl<'a> Bench<'a> {
             match what.as_str() {
                 "clocks" => *period = *code,
                 "clear" => self.pulse("clear")?,
-                "capacitance_gain" | "force_gain" => self.set(what, *code),
+                "capacitance_gain" | "force_gain" | "contact_capacitance" => self.set(what, *code),
                 address => {
                     self.set("address", number(address));
                     self.set("word", *code);

@@ -3,10 +3,11 @@
 //
 //   codes.csv    name,address,code,…       words before the first sample: what `hapticore codes --format csv` prints
 //   events.csv   sample,name,address,code  words before a row of samples (0: the first); besides those of codes.csv
-//                enable, clear_faults, alive and clear, and clocks: from one strobe to the next
+//                enable, clear_faults, alive, tick, drives_clear and clear, and clocks: from one strobe to the next. A millisecond
+//                passes with each tick: without one nothing is driven
 //   samples.csv  one code per channel      a row per strobe: terminals, sensing voltage, haptic voltage; further columns are ignored
 //   drives.csv   pad,drive,low,high,silence,sensor,force   a row per drive word, expected; may be missing
-//   frames.csv   pad,index,word,clipped,saturated,invalid,lost   a row per word of a frame, expected; may be missing
+//   frames.csv   pad,index,word,clipped,saturated,invalid,lost,lifted   a row per word of a frame, expected; may be missing
 //
 // Reads them from the folder it runs in and writes got.csv, in the columns of drives.csv. Compile with the folder of the printed
 // loop on the include path (hapticore.vh), its top module as LOOP, and WALLS where its profile has walls:
@@ -19,10 +20,11 @@ module loop_bench;
     `include "hapticore.vh"
 
     reg clock = 0, reset = 1, strobe = 0, clear = 0, write = 0, target_write = 0, alive = 0, clear_faults = 0, enable = 0,
-        curve_write = 0;
+        curve_write = 0, tick_ms = 0, drives_clear = 0;
     reg signed [HAPTICORE_CODE_BITS-1:0] code = 0;
     reg [HAPTICORE_CAPACITANCE_GAIN_BITS-1:0] capacitance_gain = 0;
     reg [HAPTICORE_FORCE_GAIN_BITS-1:0] force_gain = 0;
+    reg [HAPTICORE_CONTACT_CAPACITANCE_BITS-1:0] contact_capacitance = 0;
     reg [HAPTICORE_ADDRESS_BITS-1:0] address = 0;
     reg signed [HAPTICORE_WORD_BITS-1:0] word = 0;
     reg [HAPTICORE_TARGET_PAD_BITS-1:0] target_pad = 0;
@@ -41,7 +43,7 @@ module loop_bench;
     wire [HAPTICORE_DRIVE_PAD_BITS-1:0] drive_pad;
     wire [HAPTICORE_DRIVE_BITS-1:0] drive;
     wire signed [HAPTICORE_FRAME_BITS-1:0] frame;
-    wire valid, clipped, saturated, invalid, lost, drive_valid, drive_low, drive_high, silence_fault, sensor_fault, force_fault;
+    wire valid, clipped, saturated, invalid, lost, lifted, drive_valid, drive_low, drive_high, silence_fault, sensor_fault, force_fault;
 `ifdef WALLS
     reg wall_write = 0, wall_right = 0;
     reg [HAPTICORE_WALL_PAD_BITS-1:0] wall_pad = 0;
@@ -53,7 +55,7 @@ module loop_bench;
 
     `LOOP loop (
         .clock(clock), .reset(reset), .strobe(strobe), .clear(clear), .code(code), .capacitance_gain(capacitance_gain),
-        .force_gain(force_gain), .write(write), .address(address), .word(word), .target_write(target_write),
+        .force_gain(force_gain), .contact_capacitance(contact_capacitance), .write(write), .address(address), .word(word), .target_write(target_write),
         .target_pad(target_pad), .target_word(target_word), .alive(alive), .clear_faults(clear_faults), .enable(enable),
         .full_drive(full_drive), .proportional(proportional), .correction(correction), .rail(rail), .slew(slew),
         .force_cap(force_cap), .curve_write(curve_write), .curve_address(curve_address), .curve_word(curve_word),
@@ -61,8 +63,8 @@ module loop_bench;
         .wall_write(wall_write), .wall_pad(wall_pad), .wall_surface(wall_surface), .wall_right(wall_right),
         .wall_stiffness(wall_stiffness), .wall_most(wall_most), .wall_factory(wall_factory), .wall_restart(1'b0),
 `endif
-        .extremes_read(1'b0), .channel(channel), .valid(valid), .index(index), .frame(frame), .pad(pad), .clipped(clipped),
-        .saturated(saturated), .invalid(invalid), .lost(lost), .drive_valid(drive_valid), .drive_pad(drive_pad), .drive(drive),
+        .drives_clear(drives_clear), .tick(tick_ms), .extremes_read(1'b0), .channel(channel), .valid(valid), .index(index), .frame(frame), .pad(pad), .clipped(clipped),
+        .saturated(saturated), .invalid(invalid), .lost(lost), .lifted(lifted), .drive_valid(drive_valid), .drive_pad(drive_pad), .drive(drive),
         .drive_low(drive_low), .drive_high(drive_high), .silence_fault(silence_fault), .sensor_fault(sensor_fault),
         .force_fault(force_fault)
     );
@@ -70,7 +72,7 @@ module loop_bench;
     integer codes, events, samples, drives, frames, got;
     integer found, letter, place, value, more, next_row, row, period, step, driven, words, wrong;
     integer set [0:HAPTICORE_CHANNELS-1];
-    integer want [0:6];
+    integer want [0:7];
     reg [8*32-1:0] name;
     // The core names the channel whose code it wants in the next clock.
     reg [HAPTICORE_CHANNEL_BITS-1:0] asked = 0;
@@ -99,9 +101,10 @@ module loop_bench;
 
     task compare_frame;
         begin
-            found = $fscanf(frames, "%d,%d,%d,%d,%d,%d,%d\n", want[0], want[1], want[2], want[3], want[4], want[5], want[6]);
-            if (found != 7 || pad !== want[0] || index !== want[1] || frame !== want[2] || clipped !== want[3] ||
-                saturated !== want[4] || invalid !== want[5] || lost !== want[6]) begin
+            found = $fscanf(frames, "%d,%d,%d,%d,%d,%d,%d,%d\n", want[0], want[1], want[2], want[3], want[4], want[5], want[6],
+                want[7]);
+            if (found != 8 || pad !== want[0] || index !== want[1] || frame !== want[2] || clipped !== want[3] ||
+                saturated !== want[4] || invalid !== want[5] || lost !== want[6] || lifted !== want[7]) begin
                 if (wrong < 100) $display("word %0d: got %0d,%0d,%0d, expected %0d,%0d,%0d", words, pad, index, frame, want[0], want[1],
                     want[2]);
                 wrong = wrong + 1;
@@ -161,6 +164,7 @@ module loop_bench;
             "name": ; // the head of the table
             "capacitance_gain": capacitance_gain = value;
             "force_gain": force_gain = value;
+            "contact_capacitance": contact_capacitance = value;
             "position_table": begin
                 address = place; word = value; write = 1; tick; write = 0;
             end
@@ -188,6 +192,8 @@ module loop_bench;
             "enable": enable = value;
             "clear_faults": begin clear_faults = 1; tick; clear_faults = 0; end
             "alive": begin alive = 1; tick; alive = 0; end
+            "tick": begin tick_ms = 1; tick; tick_ms = 0; end
+            "drives_clear": begin drives_clear = 1; tick; drives_clear = 0; end
             "clear": begin clear = 1; tick; clear = 0; end
             "clocks": period = value;
             default: begin
@@ -251,6 +257,7 @@ module loop_bench;
                 code = set[asked];
                 tick;
             end
+            strobe = 0;
             row = row + 1;
             read_samples;
         end

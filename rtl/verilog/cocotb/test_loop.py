@@ -24,9 +24,9 @@ TABLES = {
     "target_word": ("target_write", "target_pad", "target_word"),
     "wall_surface": ("wall_write", "wall_pad", "wall_surface"),
 }
-PULSES = ["clear", "clear_faults", "alive"]
+PULSES = ["clear", "clear_faults", "alive", "tick", "drives_clear"]
 ZERO = ["strobe", "code", "wall_right", "wall_restart", "extremes_read", "enable"] + PULSES
-CONSTANTS = ["capacitance_gain", "force_gain", "full_drive", "proportional", "correction", "rail", "slew", "force_cap"]
+CONSTANTS = ["capacitance_gain", "force_gain", "contact_capacitance", "full_drive", "proportional", "correction", "rail", "slew", "force_cap"]
 WALLS = ["wall_stiffness", "wall_most", "wall_factory"]
 
 
@@ -88,6 +88,7 @@ class Loop:
             self.dut.strobe.value = int(clock == 0)
             self.dut.code.value = codes[self.asked]
             await self.tick()
+        self.dut.strobe.value = 0
 
 
 @cocotb.test()
@@ -105,7 +106,6 @@ async def slots_give_the_drive_words_of_the_model(dut):
         for name, address, code in written[number]:
             await loop.write(name, address, code)
         await loop.sample([int(row[name]) for name in CHANNELS])
-    dut.strobe.value = 0
     for _ in range(LATENCY):  # the last slot's estimate
         await loop.tick()
     assert loop.driven == len(expected), f"got {loop.driven} drive words, expected {len(expected)}"

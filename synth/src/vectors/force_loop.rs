@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Vectors of the printed force loop, for `rtl/verilog/cocotb/loop_bench.v` and `test_loop.py`.
 //!
-//! Split pads on a sheet, each with a carrier of 101 periods per window. The drives follow a target, a slot is abandoned with `clear`
-//! a clock after its strobe, the drives begin anew, and are switched off.
+//! Split pads on a sheet, each with a carrier of 101 periods per window. The drives rise to a target within the slew, a slot is
+//! abandoned with `clear` a clock after its strobe, the drives begin anew, are cleared, reach their target at once, and are switched off.
 //!
 //! | file | holds |
 //! | --- | --- |
@@ -34,6 +34,9 @@ const PROFILE: &str = include_str!("../../../rtl/verilog/loop.toml");
 /// Amplitudes of terminals and sensing voltage, full scale.
 const PAD: [f64; 7] = [0.11, 0.09, 0.12, 0.1, 0.08, 0.13, 0.5];
 
+/// The haptic voltage, full scale: the force is below the targets.
+const HAPTIC: f64 = 0.08;
+
 /// Largest error of an amplitude in the pads' parts, full scale: their places differ.
 const SPREAD: f64 = 0.02;
 
@@ -64,7 +67,7 @@ fn outputs_of<const N: usize>(outputs: Outputs<i64>, names: [&str; N]) -> [i64; 
 impl Bench {
     fn new(block: ForceLoop) -> Self {
         let text = String::from;
-        let flags = "clipped,saturated,invalid,lost";
+        let flags = "clipped,saturated,invalid,lost,lifted";
         Bench {
             state: block.reset(),
             constants: Inputs::map(block.inputs(), |_| 0),
@@ -87,8 +90,9 @@ impl Bench {
         let [asked, valid, driven] = outputs_of(outputs, ["channel", "valid", "drive_valid"]);
         self.asked = asked as usize;
         if valid == 1 {
-            let names = ["pad", "index", "frame", "clipped", "saturated", "invalid", "lost"];
-            line(&mut self.frames, &outputs_of(outputs, names));
+            let flags = ["clipped", "saturated", "invalid", "lost", "lifted"];
+            let word = outputs_of(outputs, ["pad", "index", "frame"]);
+            line(&mut self.frames, &[&word[..], &outputs_of(outputs, flags)].concat());
         }
         if driven == 1 {
             let faults = ["silence_fault", "sensor_fault", "force_fault"];
@@ -117,7 +121,7 @@ impl Bench {
         let at = address.unwrap_or_default();
         match name {
             "clocks" => (),
-            "clear" => self.clock(self.with(&[("clear", 1)])),
+            "clear" | "tick" | "drives_clear" => self.clock(self.with(&[(name, 1)])),
             "position_table" => {
                 self.clock(self.with(&[("write", 1), ("address", at), ("word", code)]));
             }
@@ -148,6 +152,11 @@ impl Bench {
     }
 }
 
+/// The code of a controller's word.
+fn code(profile: &Profile, word: DriveWord, value: f64) -> i64 {
+    word.format(profile).expect("a loop").code_saturating(value)
+}
+
 /// What is written before the first sample: calibration, tuning, walls.
 fn prepare(bench: &mut Bench, profile: &Profile) {
     let words = CalibrationWords::new(profile, &sheet(profile, Set::Sheet));
@@ -158,13 +167,11 @@ fn prepare(bench: &mut Bench, profile: &Profile) {
         .zip(&words.table)
         .for_each(|(address, &code)| bench.write("position_table", Some(address), code));
     let control = profile.control.as_ref().expect("a loop");
-    let code =
-        |word: DriveWord, value: f64| word.format(profile).expect("a loop").code_saturating(value);
-    let set = |setting: Setting, value: f64| code(DriveWord::Setting(setting), value);
+    let set = |setting: Setting, value: f64| code(profile, DriveWord::Setting(setting), value);
     let cells = control.cells as f64;
     let tuning = Tuning::idle(control);
     for (address, _) in (0..).zip(&tuning.curve) {
-        let word = code(DriveWord::Curve(0), 0.7 * address as f64 / cells);
+        let word = code(profile, DriveWord::Curve(0), 0.7 * address as f64 / cells);
         bench.write("curve_word", Some(address), word);
     }
     for (name, setting, value) in [
@@ -181,10 +188,12 @@ fn prepare(bench: &mut Bench, profile: &Profile) {
         bench.write(name, None, set(setting, value));
     }
     for pad in 0..profile.pads as i64 {
-        let surface = code(DriveWord::Surface { pad: pad as u8, right: false }, 5.0 * pad as f64);
+        let word = DriveWord::Surface { pad: pad as u8, right: false };
+        let surface = code(profile, word, 5.0 * pad as f64);
         bench.write("wall_surface", Some(pad), surface);
     }
     bench.write("enable", None, 1);
+    bench.write("tick", None, 1);
 }
 
 /// The codes of a sample of the window, in a slot of this number.
@@ -196,7 +205,7 @@ fn codes(profile: &Profile, number: u64, sample: u64) -> Vec<i64> {
     let carrier = (TAU * (turns(profile.carrier.periods) + 0.07)).sin();
     let part = |channel: usize| SPREAD * ((number as usize * 7 + channel * 5) % 11) as f64 / 10.0;
     let amplitudes = (0..PAD.len()).map(|channel| (PAD[channel] + part(channel)) * carrier);
-    amplitudes.chain([0.3]).map(|value| format.code_saturating(value)).collect()
+    amplitudes.chain([HAPTIC]).map(|value| format.code_saturating(value)).collect()
 }
 
 /// A slot, or the first samples of one, the last strobe of which is a clock before `clear`.
@@ -226,19 +235,24 @@ pub fn files() -> Vec<File> {
     let mut bench = Bench::new(ForceLoop::try_new(&profile).expect("the committed loop"));
     prepare(&mut bench, &profile);
     let (parts, last) = (profile.pads, profile.pads as i64 - 1);
-    let target = |newtons: f64| {
-        DriveWord::Target(0).format(&profile).expect("a loop").code_saturating(newtons)
-    };
+    let target = |newtons: f64| code(&profile, DriveWord::Target(0), newtons);
+    let turn = |bench: &mut Bench| (0..parts).for_each(|part| slot(bench, &profile, part, None));
     bench.write("target_word", Some(last), target(0.3));
-    (0..parts).for_each(|number| slot(&mut bench, &profile, number, None));
+    turn(&mut bench);
     bench.write("target_word", Some(last), target(0.5));
     slot(&mut bench, &profile, parts, None);
     // Within the window of the second part: what `clear` leaves shows in the frame after it.
     slot(&mut bench, &profile, parts + 1, Some(profile.slot.blanking() + 1));
     bench.write("target_word", Some(last), target(0.5));
-    (0..parts).for_each(|number| slot(&mut bench, &profile, number, None));
+    turn(&mut bench);
+    // The drive word of a turn is made in the first slot of the next.
+    slot(&mut bench, &profile, 0, None);
+    bench.write("drives_clear", None, 1);
+    bench.write("slew", None, code(&profile, DriveWord::Setting(Setting::Slew), 0.9));
+    (1..parts).for_each(|part| slot(&mut bench, &profile, part, None));
+    slot(&mut bench, &profile, 0, None);
     bench.write("enable", None, 0);
-    (0..parts).for_each(|number| slot(&mut bench, &profile, number, None));
+    (1..parts).for_each(|part| slot(&mut bench, &profile, part, None));
     (0..bench.block.core.latency() + 100).for_each(|_| bench.clock(bench.constants));
     let [codes, events] = bench.written;
     let file = |name: &str, text: String| File { name: format!("loop_{name}.csv"), text };

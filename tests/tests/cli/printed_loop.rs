@@ -34,7 +34,7 @@ fn print(folder: &Path) -> String {
     told["top"].as_str().expect("a module").to_owned()
 }
 
-/// The target of each slot, written before its last sample.
+/// Of each slot a tick, since slots are a millisecond long, and the target, written before its last sample.
 fn write_events(folder: &Path, profile: &Profile, frames: &Table) {
     let word = profile.control.as_ref().expect("a controller").target;
     let mut events = String::from("sample,name,address,code\n0,enable,,1\n");
@@ -42,7 +42,8 @@ fn write_events(folder: &Path, profile: &Profile, frames: &Table) {
     let rows = frames.numbers("pad").into_iter().zip(frames.numbers("target_n"));
     for (slot, (pad, target_n)) in rows.enumerate() {
         let code = word.code(target_n).unwrap_or(word.code_saturating(target_n));
-        events += &format!("{},target_word,{pad},{code}\n", (slot + 1) * samples - 1);
+        let sample = (slot + 1) * samples - 1;
+        events += &format!("{sample},tick,,1\n{sample},target_word,{pad},{code}\n");
     }
     fs::write(folder.join("events.csv"), events).expect("written");
 }
