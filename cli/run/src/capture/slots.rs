@@ -364,7 +364,7 @@ impl Slots<'_> {
         }
         let level = self.level();
         let Some(border) = self.best(0, length, level) else { return Ok(()) };
-        if self.is_border(0, level) {
+        if self.is_border(0, level) && self.is_alike(0, border, level) {
             return Ok(());
         }
         if border >= length - open {
@@ -456,8 +456,13 @@ impl Slots<'_> {
         let quiet = self.quietness(at);
         let last = self.pads.len() - self.shape.open;
         let (from, to) = (at.saturating_sub(NEAR), (at + NEAR).min(last));
-        let is_least = |near: usize| quiet <= ALIKE * self.quietness(near) + TINY * level;
+        let is_least = |near: usize| self.is_alike(at, near, level);
         quiet <= QUIET * level && (from..=to).all(is_least)
+    }
+
+    /// Whether a place is as quiet as another.
+    fn is_alike(&self, at: usize, other: usize, level: f64) -> bool {
+        self.quietness(at) <= ALIKE * self.quietness(other) + TINY * level
     }
 
     /// Whether so many samples, more than a slot has, are of two pads, and the border between them is
@@ -502,8 +507,8 @@ impl Slots<'_> {
     fn check_pad(&mut self, pad: usize) -> Result<()> {
         let Some(got) = self.pads.front().copied().flatten() else { return Ok(()) };
         let length = self.shape.samples;
-        let behind =
-            self.pads.get(length).copied().flatten().filter(|next| self.by_pad() && *next == got);
+        let runs_on = self.pads.iter().take(length + 1).all(|next| *next == Some(got));
+        let behind = self.pads.get(length).copied().flatten().filter(|_| self.by_pad() && runs_on);
         let (wanted, slot, got) = match behind {
             _ if got != pad => (pad, self.slots, got),
             Some(next) => ((pad + 1) % self.shape.pads, self.slots + 1, next),

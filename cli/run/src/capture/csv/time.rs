@@ -72,7 +72,7 @@ impl Times {
         let (went_s, first) = (now_s - self.last_s, self.step_s.is_none());
         self.last_s = now_s;
         let resolved_s = self.unit_s * quantum(cell);
-        if went_s <= -resolved_s || (first && went_s <= 0.0) {
+        if went_s < -0.5 * resolved_s || (first && went_s <= 0.0) {
             bail!("expected a time after that of the row before, got \"{cell}\"");
         }
         let step_s = *self.step_s.get_or_insert(went_s);
