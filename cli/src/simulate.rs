@@ -7,7 +7,7 @@ use std::time::Instant;
 
 use anyhow::{Result, ensure};
 use hapticore_contract::profile::Profile;
-use hapticore_run::capture::{self, Adc, Recorder};
+use hapticore_run::capture::{self, Adc, Recorder, Switched};
 use hapticore_run::case::{Case, Outcome, Settings};
 use hapticore_run::control::Gains;
 use hapticore_run::criteria::{self, CaseRows};
@@ -165,7 +165,8 @@ fn recorder(path: &Path, args: &SimulateArgs, cases: &[Case]) -> Result<Box<dyn 
         args.scene
     );
     let adc = Adc { terminals: case.profile.terminals.x.len(), format: case.profile.formats.adc };
-    capture::create(path, adc, case.device.device.sample_rate_hz)
+    let recorder = capture::create(path, adc, case.device.device.sample_rate_hz)?;
+    Ok(Box::new(Switched::new(recorder, &case.profile)))
 }
 
 fn wave_kind(args: &SimulateArgs, scene: &Scene) -> Option<Kind> {

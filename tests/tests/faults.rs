@@ -16,7 +16,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::block::Block;
-use hapticore_hdl::verilog::Design;
+use hapticore_hdl::verilog::{Design, Heading};
 use hapticore_model::blocks::capacitance::Capacitance;
 use hapticore_model::blocks::currents::Currents;
 use hapticore_model::blocks::demodulator::Demodulator;
@@ -25,6 +25,7 @@ use hapticore_model::blocks::haptic_voltage::HapticVoltage;
 use hapticore_model::blocks::pace::Pace;
 use hapticore_model::blocks::position::Position;
 use hapticore_model::blocks::ratio::Ratio;
+use hapticore_rtl::header;
 use hapticore_tests::faults::campaign::{self, two_at_a_time};
 use hapticore_tests::faults::{Fault, Kind, Planted};
 use hapticore_tests::lockstep::verilator::{CompiledTrace, Start, Verilated};
@@ -40,8 +41,14 @@ const NONE: &str = include_str!("faults.txt");
 /// A block alone: the name of its module, and a trace.
 type Alone = (String, Trace);
 
+/// A block alone, by the name of its module in the core of `small`.
+fn design<B: Block>(block: &B) -> Design {
+    let prefix = header::prefix(&Profile::bundled("small").expect("bundled"));
+    Design::of(block, Heading { prefix, ..Heading::from("a test") })
+}
+
 fn alone<B: Block>(block: &B, operations: usize, words: i64, clocks: u32) -> Alone {
-    let Design { modules, ports } = Design::of(block, "a test");
+    let Design { modules, ports } = design(block);
     let trace =
         Trace::record(block, ports, stimulus::operations(block, 1, operations, words, clocks));
     (modules.last().expect("a module").name.clone(), trace)
@@ -50,7 +57,7 @@ fn alone<B: Block>(block: &B, operations: usize, words: i64, clocks: u32) -> Alo
 /// A block that counts clocks between strobes, which come too early, in time and late, and which
 /// forgets now and then.
 fn strobed(block: &Pace) -> Alone {
-    let Design { modules, ports } = Design::of(block, "a test");
+    let Design { modules, ports } = design(block);
     let (mut rng, mut left, mut gap) = (fastrand::Rng::with_seed(1), 20_000, 0);
     let trace = Trace::record(block, ports, move |_| {
         left = i32::checked_sub(left, 1).filter(|left| *left > 0)?;

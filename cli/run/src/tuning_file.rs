@@ -169,9 +169,11 @@ impl TuningFile {
         holds("correction", set(Setting::Correction), self.correction)?;
         holds("rail", set(Setting::Rail), self.rail)?;
         holds("slew", set(Setting::Slew), self.slew)?;
-        // No cap is a cap at the largest force that the word holds.
-        let cap = if self.force_cap_n == f64::INFINITY { 0.0 } else { self.force_cap_n };
-        holds("force_cap_n", set(Setting::ForceCap), cap)?;
+        // A cap beyond the largest force that the word holds is one at that force.
+        let format = set(Setting::ForceCap);
+        let largest_n = format.real(format.max_code() as i64);
+        let cap_n = if self.force_cap_n > largest_n { largest_n } else { self.force_cap_n };
+        holds("force_cap_n", format, cap_n)?;
         each("curve", word(DriveWord::Curve(0)), &self.curve, self.curve.len())?;
         let pads = profile.pads as usize;
         each("target_n", word(DriveWord::Target(0)), &self.target_n, pads)?;

@@ -36,7 +36,6 @@ impl Shares {
             self.error
         );
         for row in &self.places {
-            let row: Vec<f64> = row.iter().map(|number| (1e5 * number).round() / 1e5).collect();
             writeln!(text, "{row:?},").expect("a string takes all");
         }
         text + "]\n"

@@ -15,6 +15,7 @@ mod raw;
 mod sigmf;
 mod slots;
 mod stream;
+mod switched;
 mod wav;
 
 use std::path::{Path, PathBuf};
@@ -24,6 +25,7 @@ use anyhow::{Context, Result, bail};
 pub use input::Input;
 pub use slots::{BROKEN, Cut, Shape, Slots};
 pub use stream::{Adc, Described, Recorder, Sampled, Source};
+pub use switched::Switched;
 
 #[derive(Clone, Copy)]
 enum Kind {

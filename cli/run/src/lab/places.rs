@@ -257,7 +257,9 @@ fn distinct(values: impl Iterator<Item = f64>) -> Vec<f64> {
     let mut last = f64::NEG_INFINITY;
     values.retain(|value| {
         let is_new = value - last > near;
-        last = *value;
+        if is_new {
+            last = *value;
+        }
         is_new
     });
     values

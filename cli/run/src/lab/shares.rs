@@ -42,6 +42,8 @@ pub fn of(places: &[([f64; 2], Vec<f64>)]) -> Option<Shares> {
         .collect();
     errors.sort_by(f64::total_cmp);
     shares.error = *errors.get(errors.len() / 2)?;
+    // More digits than a measurement has make files long.
+    shares.places.iter_mut().flatten().for_each(|number| *number = (1e5 * *number).round() / 1e5);
     Some(shares)
 }
 
@@ -102,7 +104,8 @@ mod tests {
         let shares = of(&places).unwrap();
         assert!(shares.error < 1e-9, "{}", shares.error);
         let told = predicted(&shares, [33.0, -44.0], None).unwrap();
-        assert!((told[0] - share([33.0, -44.0])).abs() < 1e-9 && told.len() == 2, "{told:?}");
+        // To the digits that are kept.
+        assert!((told[0] - share([33.0, -44.0])).abs() < 1e-5 && told.len() == 2, "{told:?}");
         assert!(of(&places[..10]).is_none());
         let line: Vec<_> = places.iter().map(|([x, _], s)| ([*x, 2.0 * x], s.clone())).collect();
         assert!(of(&line).is_none());
