@@ -104,8 +104,8 @@ pub struct ControlPlan {
     /// The curve is so many times the voltage that it says: with the inverse law, how far beyond it
     /// the drive may go.
     pub curve_factor: f64,
-    /// Load at which the steady curve is measured, g.
-    pub nominal_load_g: f64,
+    /// Load at which the steady curve is measured, g. None where it is that of the case's pads.
+    pub nominal_load_g: Option<f64>,
     /// K of eq. 9, V/√N; of a linear curve, V/N. None where it follows from the device's steady curve.
     pub feed_forward_v: Option<f64>,
     /// Gain of the error: V/N with `proportional`, V/√N with `integral`. None where it follows from device and profile.
@@ -150,7 +150,7 @@ impl ControlPlan {
             force: table.word("force", &FORCES)?,
             curve: table.word("curve", &CURVES)?.unwrap_or(curve),
             curve_factor: number("curve_factor", if inverse { 1.13 } else { 1.0 })?,
-            nominal_load_g: table.number_or("nominal_load_g", Limits::within(0.0, 1e5), 50.0)?,
+            nominal_load_g: table.number("nominal_load_g", Limits::within(0.0, 1e5))?,
             feed_forward_v: table.number("feed_forward_v", LIMITS)?,
             proportional_v,
             filter: table.number_or("filter", Limits::above(0.0, 1.0), filter)?,

@@ -170,6 +170,14 @@ impl PadPlan {
         self.target_n.extremes().into_iter().fold(0.0, f64::max)
     }
 
+    /// The load halfway between the least and the largest that the scene ever sets, g.
+    pub fn middle_load_g(&self) -> f64 {
+        let loads_g = self.load_g.extremes();
+        let least_g = loads_g.iter().copied().fold(f64::INFINITY, f64::min);
+        let largest_g = loads_g.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        0.5 * (least_g + largest_g)
+    }
+
     /// The largest capacitance that the scene ever sets the pad to, pF; none where it sets none.
     pub fn set_capacitance_pf(&self) -> Option<f64> {
         let is_set = self.capacitance_pf != Stimulus::Constant(CAPACITANCE_PF);

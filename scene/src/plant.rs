@@ -16,7 +16,7 @@ use num_complex::Complex64;
 use crate::case::{Case, Length};
 use crate::device::Device;
 use crate::drive::{DriveError, Electrode, HeldVoltage, PadDrive};
-use crate::effects::{EffectCost, Effects, Pad, Phasors, Run, Setting};
+use crate::effects::{EffectCost, Effects, Pad, Phasors, Run, SPLITTING, Setting};
 use crate::error::{Place, SceneError};
 use crate::nominal::NominalSheet;
 use crate::pad::resting;
@@ -184,6 +184,11 @@ impl Plant {
         Plant::of_case((**case).clone(), self.seed, self.index, &self.timing).map(Some)
     }
 
+    /// Whether a sheet divides the currents; without one those of the corners are all that flows.
+    pub fn has_sheet(&self) -> bool {
+        self.case.effects().iter().any(|(effect, _)| SPLITTING.contains(effect))
+    }
+
     /// The nominal sheet that a host of this device takes crosstalk out by; none where the case
     /// does not ask for it.
     pub fn nominal_sheet(&self) -> Option<NominalSheet> {
@@ -316,6 +321,12 @@ impl Plant {
     /// The largest force that a controller shall give each pad, N.
     pub fn largest_targets_n(&self) -> Vec<f64> {
         self.case.pads.iter().map(|pad| pad.largest_target_n()).collect()
+    }
+
+    /// The mean load of the case's pads, each halfway between its least and its largest, g.
+    pub fn mean_load_g(&self) -> f64 {
+        let loads_g = self.case.pads.iter().map(|pad| pad.middle_load_g());
+        loads_g.sum::<f64>() / self.case.pads.len() as f64
     }
 
     /// The plant in a slot.

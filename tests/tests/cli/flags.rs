@@ -18,6 +18,16 @@ fn simulate(folder: &Path, scene: &str, args: &[&str]) -> Table {
     frames(folder, "o")
 }
 
+#[test]
+fn a_scene_that_calls_for_no_effect_has_no_flag() {
+    let folder = tempfile::tempdir().unwrap();
+    for sheet in ["", "[sheet]\n"] {
+        let scene = format!("duration_s = 0.02\n[[pad]]\nposition_mm = [30, 20]\n{sheet}");
+        let table = simulate(folder.path(), &scene, &[]);
+        assert_eq!(table.column("flags"), vec![""; table.column("flags").len()], "{scene}");
+    }
+}
+
 /// Each of the six terminals in turn loses its contact after the device was calibrated, wherever
 /// the pad is.
 #[test]

@@ -32,6 +32,29 @@ fn an_unstable_loop_is_refused_unless_it_may_be() {
 }
 
 #[test]
+fn gains_by_default_reach_the_target_under_any_load() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut rng = fastrand::Rng::with_seed(48);
+    for law in ["inverse", "integral", "proportional"] {
+        for decade in [2.0, 20.0, 200.0] {
+            let load_g = decade * (1.0 + 1.5 * rng.f64());
+            let scene = format!(
+                "title = \"loaded\"\nduration_s = 0.3\n[control]\nlaw = \"{law}\"\n[sheet]\n[gap]\n[friction]\n\
+                 [[pad]]\nposition_mm = [0, 0]\nload_g = {load_g}\n\
+                 target_n = {{ timeline = [[0.05, 0], [0.05, 0.3]] }}\n"
+            );
+            fs::write(folder.path().join("loaded.toml"), scene).expect("written");
+            expect(folder.path(), &["simulate", "loaded.toml", "--waves", "none", "--out", "o"], 0);
+            let summary = fs::read_to_string(folder.path().join("o/summary.json")).expect("one");
+            let summary: Value = serde_json::from_str(&summary).expect("JSON");
+            let settled = &summary["findings"]["tracking"][0]["settled"];
+            let read_n = settled["read_n"].as_f64().unwrap_or_else(|| panic!("{summary}"));
+            assert!((read_n - 0.3).abs() < 0.03, "{law}, {load_g} g: {read_n} N");
+        }
+    }
+}
+
+#[test]
 fn little_phase_margin_is_warned_of_in_three_places() {
     let folder = tempfile::tempdir().expect("a folder");
     for (integral_v, warned) in [("740000", true), ("300000", false)] {

@@ -51,7 +51,9 @@ pub fn of_plant(plant: &Plant, profile: &Profile) -> DeviceCalibration {
     let device = plant.device();
     // A pad goes no further: places beyond would be read as those at the edge.
     let map = plant.calibration_map(RASTER[0], RASTER[1], device.pad_diameter_mm / 2.0);
-    let open_share = open_share(map.iter().map(|point| &*point.shares));
+    // Without a sheet, what a terminal between the corners carries is nothing, and no fault.
+    let shares = map.iter().map(|point| &*point.shares);
+    let open_share = if plant.has_sheet() { open_share(shares) } else { 0.0 };
     let places =
         map.iter().map(|point| [point.x_mm, point.y_mm, point.r_x, point.r_y, point.sheet_ohm]);
     DeviceCalibration {

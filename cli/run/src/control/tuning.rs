@@ -73,8 +73,8 @@ fn walled(wall: Wall, plan: &WallPlan) -> Wall {
 }
 
 /// The walls, as the factory calibrates them.
-fn walls(plan: &WallPlan, nominal_load_g: f64, plant: &Plant) -> Walls {
-    let read = plant.parts_at_rest_pf(nominal_load_g).filter(|_| plan.calibrated);
+fn walls(plan: &WallPlan, load_g: f64, plant: &Plant) -> Walls {
+    let read = plant.parts_at_rest_pf(load_g).filter(|_| plan.calibrated);
     Walls {
         stiffness_n_per_mm: plan.stiffness_n_per_mm,
         most_n: plan.force_n,
@@ -143,7 +143,7 @@ pub(super) fn of_gains(
         rail: part(plan.rail_v),
         slew: part(plan.slew_v),
         force_cap: plan.force_cap_n,
-        walls: plan.wall.as_ref().map(|wall| walls(wall, plan.nominal_load_g, plant)),
+        walls: plan.wall.as_ref().map(|wall| walls(wall, nominal_load_g(plan, plant), plant)),
     })
 }
 
@@ -177,11 +177,16 @@ fn curve(
     }
 }
 
+/// The load of the calibration, g: as the plan says, else that of the case's pads.
+fn nominal_load_g(plan: &ControlPlan, plant: &Plant) -> f64 {
+    plan.nominal_load_g.unwrap_or_else(|| plant.mean_load_g())
+}
+
 /// Voltages and the forces that they give at rest under the nominal load.
 fn steady(plan: &ControlPlan, plant: &Plant) -> Vec<[f64; 2]> {
     let step_v = plan.rail_v / (MEASURED - 1) as f64;
     let volts: Vec<f64> = (0..MEASURED).map(|n| step_v * n as f64).collect();
-    let points = plant.friction_calibration(&[plan.nominal_load_g], &volts);
+    let points = plant.friction_calibration(&[nominal_load_g(plan, plant)], &volts);
     volts.into_iter().zip(points).map(|(volt, point)| [volt, point.force_n]).collect()
 }
 
