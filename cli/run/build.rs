@@ -19,11 +19,9 @@ const SOURCES: [&str; 8] = [
 fn main() {
     let commit = git(&["describe", "--always", "--exclude=*", "--abbrev=40", "--dirty=-modified"]);
     println!("cargo::rustc-env=HAPTICORE_COMMIT={}", commit.unwrap_or_default());
-    let heads = [
-        git(&["rev-parse", "--git-path", "logs/HEAD"]),
-        git(&["rev-parse", "--git-path", "index"]),
-    ];
-    let watched = heads.into_iter().flatten().chain(SOURCES.map(String::from));
+    // Not the index: it changes with every `git status`.
+    let head = git(&["rev-parse", "--git-path", "logs/HEAD"]);
+    let watched = head.into_iter().chain(SOURCES.map(String::from));
     watched.for_each(|path| println!("cargo::rerun-if-changed={path}"));
 }
 

@@ -8,14 +8,12 @@ use hapticore_hdl::memory::Memory;
 use hapticore_hdl::probe::{Variable, sample, variables};
 use hapticore_hdl::signal::Signal;
 
-/// Operations of a test: all of them where code is optimised. Where it is not, one of two hundred, or of as many as
-/// `HAPTICORE_SHARE` says, and of few operations eight.
+/// Operations of a test: all of them where code is optimised, one of two hundred where it is not; one of as many as
+/// `HAPTICORE_SHARE` says where that is set. Of few operations eight.
 pub fn operations(all: u64) -> u64 {
-    if cfg!(optimised) {
-        return all;
-    }
     let share = std::env::var("HAPTICORE_SHARE").ok().and_then(|share| share.parse().ok());
-    (all / share.unwrap_or(200)).max(all.min(8))
+    let share = share.unwrap_or(if cfg!(optimised) { 1 } else { 200 });
+    (all / share).max(all.min(8))
 }
 
 /// A block under test.

@@ -176,9 +176,12 @@ fn a_fault_that_is_cleared_before_the_next_drive_word_has_stopped_the_pad() {
 #[test]
 fn clear_in_every_phase_of_a_drive_word_leaves_nothing_of_it() {
     for law in Law::ALL {
-        let latency = Rig::new(law, |_| ()).bench.block.latency();
+        let mut rig = Rig::new(law, |_| ());
+        let (latency, slew) = (rig.bench.block.latency(), rig.inputs.tuning.slew);
         for phase in 0..=latency {
-            let mut rig = driven(law, 0);
+            rig.inputs.tuning.slew = slew;
+            assert!(rig.drives(0.1, 3)[2] > 0, "{law:?}: nothing to clear");
+            rig.inputs.tuning.slew = 0;
             let request = rig.request(0.1, 0.05);
             for clock in 0..=latency {
                 let inputs = Inputs {
