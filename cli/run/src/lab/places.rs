@@ -182,7 +182,7 @@ impl Places {
             "{file}: too few places: expected {LEAST} different ones at least, better a raster of 20 × 12 or more, got {count}"
         );
         for (axis, name) in ["x_mm", "y_mm"].into_iter().enumerate() {
-            let along = distinct(self.places.iter().map(|place| place.at_mm[axis])).len();
+            let along = apart(self.places.iter().map(|place| place.at_mm[axis]));
             ensure!(
                 along >= LEAST_ALONG,
                 "{file}: {name}: expected places at {LEAST_ALONG} different {name} at least, which span the sheet, got {along}"
@@ -263,6 +263,21 @@ fn distinct(values: impl Iterator<Item = f64>) -> Vec<f64> {
     values
 }
 
+/// How many values are farther than a thousandth of all from the one before, however densely the others lie.
+fn apart(values: impl Iterator<Item = f64>) -> usize {
+    let mut values: Vec<_> = values.collect();
+    values.sort_by(f64::total_cmp);
+    let near = 1e-3 * (values[values.len() - 1] - values[0]);
+    let mut last = f64::NEG_INFINITY;
+    let mut count = 0;
+    for value in values {
+        if value - last > near {
+            (last, count) = (value, count + 1);
+        }
+    }
+    count
+}
+
 /// Measurements of the very same place as one.
 fn averaged(mut places: Vec<Place>) -> Vec<Place> {
     let key = |place: &Place| place.at_mm;
@@ -282,4 +297,19 @@ fn averaged(mut places: Vec<Place>) -> Vec<Place> {
         }
     };
     places.chunk_by(|a, b| key(a) == key(b)).map(mean).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn places_count_however_densely_they_lie() {
+        let scattered = |n: i32| (f64::from(n) * 3f64.sqrt()).fract();
+        assert!(apart((0..5000).map(scattered)) > 400);
+        assert_eq!(apart((0..5000).map(|n| f64::from(n % 3))), 3);
+        assert_eq!(apart([7.0; 20].into_iter()), 1);
+        let lines = (0..60).map(|n| f64::from(n / 20) + 1e-4 * scattered(n));
+        assert_eq!(distinct(lines).len(), 3, "those of a raster");
+    }
 }
