@@ -16,7 +16,7 @@ use std::any::Any;
 pub fn operations(all: u64) -> u64 {
     let share = std::env::var("HAPTICORE_SHARE").ok().and_then(|share| share.parse().ok());
     let share = share.unwrap_or(if cfg!(optimised) { 1 } else { 200 });
-    (all / share).max(all.min(8))
+    (all / share.max(1)).max(all.min(8))
 }
 
 /// A block under test.

@@ -19,7 +19,7 @@ impl Plant {
     ///
     /// ```
     /// # use hapticore_scene::{Plant, Scene, Timing};
-    /// # let scene = Scene::parse("title = \"t\"\nduration_s = 2\n[[pad]]\nposition_mm = [0, 0]\n[sheet]\n", "t.toml", &[])?;
+    /// # let scene = Scene::parse("title = \"t\"\n[[pad]]\nposition_mm = [0, 0]\n[sheet]\n", "t.toml", &[])?;
     /// # let timing = Timing {
     /// #     pads: 4, slot_samples: 1700, window_start: 700, window_samples: 1000, samples_per_period: 10.0, signs: None,
     /// # };
@@ -75,7 +75,7 @@ impl Plant {
     ///
     /// ```
     /// # use hapticore_scene::{Plant, Scene, Timing};
-    /// # let scene = Scene::parse("title = \"t\"\nduration_s = 2\n[[pad]]\nposition_mm = [0, 0]\n[gap]\n", "t.toml", &[])?;
+    /// # let scene = Scene::parse("title = \"t\"\n[[pad]]\nposition_mm = [0, 0]\n[gap]\n", "t.toml", &[])?;
     /// # let timing = Timing {
     /// #     pads: 4, slot_samples: 1700, window_start: 700, window_samples: 1000, samples_per_period: 10.0, signs: None,
     /// # };

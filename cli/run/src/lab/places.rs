@@ -251,9 +251,7 @@ pub fn total(place: &Place) -> f64 {
 /// The first of each run of values that a raster's line has, ascending: nearer ones than a
 /// thousandth of all are one.
 fn distinct(values: impl Iterator<Item = f64>) -> Vec<f64> {
-    let mut values: Vec<_> = values.collect();
-    values.sort_by(f64::total_cmp);
-    let near = 1e-3 * (values[values.len() - 1] - values[0]);
+    let (mut values, near) = ascending(values);
     let mut last = f64::NEG_INFINITY;
     values.retain(|value| {
         let is_new = value - last > near;
@@ -263,19 +261,24 @@ fn distinct(values: impl Iterator<Item = f64>) -> Vec<f64> {
     values
 }
 
-/// How many values are farther than a thousandth of all from the one before, however densely the others lie.
+/// How many values there are with more than a thousandth of all between each and the next, however densely others lie.
 fn apart(values: impl Iterator<Item = f64>) -> usize {
+    let (values, near) = ascending(values);
+    let mut last = f64::NEG_INFINITY;
+    let mut is_counted = |value: &f64| {
+        let is_new = value - last > near;
+        last = if is_new { *value } else { last };
+        is_new
+    };
+    values.iter().filter(|value| is_counted(value)).count()
+}
+
+/// The values in order, and a thousandth of what they span.
+fn ascending(values: impl Iterator<Item = f64>) -> (Vec<f64>, f64) {
     let mut values: Vec<_> = values.collect();
     values.sort_by(f64::total_cmp);
     let near = 1e-3 * (values[values.len() - 1] - values[0]);
-    let mut last = f64::NEG_INFINITY;
-    let mut count = 0;
-    for value in values {
-        if value - last > near {
-            (last, count) = (value, count + 1);
-        }
-    }
-    count
+    (values, near)
 }
 
 /// Measurements of the very same place as one.
