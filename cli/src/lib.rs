@@ -15,7 +15,7 @@ pub mod args;
 pub mod calibrate;
 pub mod codes;
 pub mod console;
-mod control_words;
+pub mod control_words;
 pub mod folder;
 pub mod hdl;
 pub mod output;

@@ -83,7 +83,9 @@ fn write(
     let (frames, report) = rayon::join(|| write_frames(&output, &record), report);
     frames.and(report)?;
     output.write("summary.json", summary(&record))?;
-    words::write(&output, &cases)?;
+    for (name, text) in words::of_cases(&cases)? {
+        output.write(&name, text)?;
+    }
     let mut files = Vec::new();
     if let (Some(path), Some(recorder)) = (capture, recorder) {
         let calibration = capture::calibration_path(&path);

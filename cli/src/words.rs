@@ -7,8 +7,6 @@ use anyhow::Result;
 use hapticore_run::case::Case;
 use hapticore_run::tuning_file::{self, TuningFile};
 
-use crate::output::Output;
-
 /// The name under which a run writes the profile of its core.
 const PROFILE: &str = "profile.toml";
 
@@ -30,12 +28,15 @@ pub fn is_left(path: &Path) -> bool {
     is_of_words(&name) && [MARK, tuning_file::MARK].iter().any(|mark| text().starts_with(mark))
 }
 
-/// Writes the profile and the tuning of the cases that were run: one file for all of them where they are the same, else one per
-/// case, with its name.
+/// A file of a run: its name and its text.
+pub type NamedText = (String, String);
+
+/// Profile and tuning of the cases that were run: one file for all of them where they are the same, else one per case, with its
+/// name.
 ///
 /// # Errors
-/// A file that cannot be written.
-pub fn write(output: &Output, cases: &[Case]) -> Result<()> {
+/// A profile or a tuning that is no TOML.
+pub fn of_cases(cases: &[Case]) -> Result<Vec<NamedText>> {
     let profile = |case: &Case| -> Result<Option<String>> {
         let of = format!("{MARK}: {}.\n", of(case));
         Ok(Some(of + &toml::to_string(&*case.profile)?))
@@ -43,8 +44,7 @@ pub fn write(output: &Output, cases: &[Case]) -> Result<()> {
     let tuning = |case: &Case| {
         case.ran_with().map(|tuning| TuningFile::of(tuning).text(&of(case))).transpose()
     };
-    write_each(output, cases, PROFILE, profile)?;
-    write_each(output, cases, tuning_file::NAME, tuning)
+    Ok([each(cases, PROFILE, profile)?, each(cases, tuning_file::NAME, tuning)?].concat())
 }
 
 /// Scene and case in words.
@@ -52,25 +52,25 @@ fn of(case: &Case) -> String {
     format!("scene {}, case {}", case.scene.name, case.name()).replace(char::is_control, " ")
 }
 
-fn write_each(
-    output: &Output,
+fn each(
     cases: &[Case],
     name: &str,
     text: impl Fn(&Case) -> Result<Option<String>>,
-) -> Result<()> {
+) -> Result<Vec<NamedText>> {
     let texts = cases.iter().map(text).collect::<Result<Vec<_>>>()?;
     // The first line is a comment that names the case.
     let body = |text: &Option<String>| {
         text.as_ref().map(|text| text.split_once('\n').map_or("", |(_, body)| body).to_owned())
     };
     if texts.windows(2).all(|pair| body(&pair[0]) == body(&pair[1])) {
-        return texts.first().into_iter().flatten().try_for_each(|text| output.write(name, text));
+        let one = texts.into_iter().next().flatten();
+        return Ok(one.into_iter().map(|text| (name.to_owned(), text)).collect());
     }
-    for (case, text) in cases.iter().zip(&texts) {
-        let Some(text) = text else { continue };
-        output.write(&of_case(name, case.name()), text)?;
-    }
-    Ok(())
+    let named = cases.iter().zip(texts).filter_map(|(case, text)| {
+        let text = text?;
+        Some((of_case(name, case.name()), text))
+    });
+    Ok(named.collect())
 }
 
 /// The name of a file for a case: letters, digits and points of the case's name, all else as one dash.

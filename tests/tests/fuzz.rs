@@ -65,6 +65,11 @@ fn sigmf_captures() {
 }
 
 #[test]
+fn tunings() {
+    hold("tuning", 500);
+}
+
+#[test]
 fn sweep_plans() {
     hold("plan", 200);
 }

@@ -104,9 +104,16 @@ impl TuningFile {
     /// # Errors
     /// No such file, a key that is none, a number that its word does not hold.
     pub fn read(path: &Path, profile: &Profile) -> Result<Self> {
-        let file = || path.display().to_string();
-        let tuning: TuningFile = toml::from_str(&read(path)?).with_context(file)?;
-        tuning.check(profile).with_context(file)?;
+        TuningFile::parse(&read(path)?, &path.display().to_string(), profile)
+    }
+
+    /// Reads the text of a file of this name.
+    ///
+    /// # Errors
+    /// As [`TuningFile::read`].
+    pub fn parse(text: &str, file: &str, profile: &Profile) -> Result<Self> {
+        let tuning: TuningFile = toml::from_str(text).with_context(|| file.to_string())?;
+        tuning.check(profile).with_context(|| file.to_string())?;
         Ok(tuning)
     }
 

@@ -9,6 +9,7 @@
 //! | `calibration` | TOML | what is accepted is read again to the same calibration; a core is given it or refuses it |
 //! | `csv`, `wav` | options, then a capture | codes are the ADC's; they are written and read again to the same |
 //! | `sigmf` | options, meta data, a zero, samples | codes are the ADC's |
+//! | `tuning` | TOML | what is accepted is read again to the same tuning; words of its curve are its numbers |
 //! | `plan` | TOML | what is accepted is read again to the same plan; its first and last point have names of their own |
 //! | `lab` | setup, places and loads, each ended by a zero | what is accepted makes a calibration that is read again to the same, or is refused |
 //! | `options` | words of a command line | what options hold is read or refused; a scene with keys set is read again to the same |
@@ -30,6 +31,7 @@ mod plan;
 mod profile;
 mod scene;
 pub mod seeds;
+mod tuning;
 
 pub use mutate::{Bytes, cross, mutate};
 pub use mutations::Mutations;
@@ -40,13 +42,14 @@ use anyhow::Error;
 pub type Target = (&'static str, fn(&[u8]) -> bool);
 
 /// All targets.
-pub const TARGETS: [Target; 11] = [
+pub const TARGETS: [Target; 12] = [
     ("profile", profile::check),
     ("scene", scene::check),
     ("calibration", calibration::check),
     ("csv", captures::csv),
     ("wav", captures::wav),
     ("sigmf", captures::sigmf),
+    ("tuning", tuning::check),
     ("plan", plan::check),
     ("lab", lab::check),
     ("options", options::check),

@@ -38,7 +38,7 @@ const WORDS: [&str; 28] = [
 ];
 
 /// Targets whose values are mutated, in half of the inputs.
-const TEXTS: [&str; 6] = ["profile", "scene", "calibration", "plan", "lab", "csv"];
+const TEXTS: [&str; 7] = ["profile", "scene", "calibration", "tuning", "plan", "lab", "csv"];
 
 /// Inputs made of others, without end.
 pub struct Mutations {

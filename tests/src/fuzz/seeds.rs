@@ -8,6 +8,7 @@ use hapticore_contract::control::{Control, Law};
 use hapticore_contract::frame::{Field, Flags, Frame};
 use hapticore_contract::profile::{BUNDLED, Profile, Wall};
 use hapticore_host::{DeviceCalibration, Heartbeat, Message, Packet, Raster, Status};
+use hapticore_run::tuning_file::TuningFile;
 use hapticore_run::{calibrate, inputs};
 use hapticore_scene::{Plant, Scene, gallery};
 
@@ -24,6 +25,7 @@ pub fn of(target: &str) -> Vec<Vec<u8>> {
         "csv" => bytes(csvs()),
         "wav" => wavs(),
         "sigmf" => sigmfs(),
+        "tuning" => vec![tuning().into_bytes()],
         "plan" => bytes(plans()),
         "lab" => bytes(labs()),
         "options" => bytes(OPTIONS.map(|line| line.replace(' ', "\n")).to_vec()),
@@ -40,10 +42,30 @@ fn random(seed: u64) -> Vec<u8> {
 
 fn profiles() -> Vec<String> {
     let bundled = BUNDLED.map(|(_, text)| text.to_string());
+    bundled.into_iter().chain([toml::to_string(&walled()).expect("plain data")]).collect()
+}
+
+/// A profile with a force controller and walls.
+pub fn walled() -> Profile {
     let mut walled = Profile::bundled("small").expect("bundled");
     (walled.pads, walled.wall) = (3, Some(Wall::A));
     walled.control = Some(Control::of(&walled, Law::Inverse));
-    bundled.into_iter().chain([toml::to_string(&walled).expect("plain data")]).collect()
+    walled
+}
+
+fn tuning() -> String {
+    let profile = walled();
+    let control = profile.control.clone().expect("a controller");
+    let idle = TuningFile::at_reset(&profile, &control);
+    let curve = (0..=control.cells).map(|cell| cell as f64 / (2.0 * control.cells as f64));
+    let file = TuningFile {
+        curve: curve.collect(),
+        rail: 0.5,
+        slew: 0.125,
+        target_n: vec![0.25, 0.0, 0.5],
+        ..idle
+    };
+    file.text("a seed").expect("plain data")
 }
 
 /// The bundled ones, and one whose sheet is quick to make with effects that others lack.

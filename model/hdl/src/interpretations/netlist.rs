@@ -65,6 +65,41 @@ pub enum Op {
     Select(Node, Node, Node),
 }
 
+impl Op {
+    /// The wires that it takes.
+    pub fn operands(&self) -> Vec<Node> {
+        let mut operands = Vec::new();
+        self.with_operands(|node| {
+            operands.push(node);
+            node
+        });
+        operands
+    }
+
+    /// The same operation of other wires.
+    pub fn with_operands(&self, mut of: impl FnMut(Node) -> Node) -> Op {
+        match *self {
+            Op::Add(a, b) => Op::Add(of(a), of(b)),
+            Op::Sub(a, b) => Op::Sub(of(a), of(b)),
+            Op::Mul(a, b) => Op::Mul(of(a), of(b)),
+            Op::Abs(a) => Op::Abs(of(a)),
+            Op::Fit(a, rounding, overflow) => Op::Fit(of(a), rounding, overflow),
+            Op::Scale(a) => Op::Scale(of(a)),
+            Op::Bits(a, low) => Op::Bits(of(a), low),
+            Op::Concat(a, b) => Op::Concat(of(a), of(b)),
+            Op::Less(a, b) => Op::Less(of(a), of(b)),
+            Op::Equal(a, b) => Op::Equal(of(a), of(b)),
+            Op::And(a, b) => Op::And(of(a), of(b)),
+            Op::Or(a, b) => Op::Or(of(a), of(b)),
+            Op::Not(a) => Op::Not(of(a)),
+            Op::Select(bit, a, b) => Op::Select(of(bit), of(a), of(b)),
+            Op::Constant(_) | Op::Input(_) | Op::Register(_) | Op::Data(_) | Op::Output(..) => {
+                self.clone()
+            }
+        }
+    }
+}
+
 /// A wire of a module.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub struct Wire {

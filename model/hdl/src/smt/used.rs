@@ -5,7 +5,7 @@
 use super::bits::any;
 use super::state::{At, Unrolled};
 use crate::interpretations::netlist::{Module, Node, Op};
-use crate::verilog::live::{Live, operands};
+use crate::verilog::live::Live;
 
 /// What a wire goes into.
 #[derive(Debug, Clone, Copy)]
@@ -53,7 +53,7 @@ impl Uses {
                     uses.add(a, Use::Chosen(of, bit, true));
                     uses.add(b, Use::Chosen(of, bit, false));
                 }
-                ref op => operands(op).into_iter().for_each(|a| uses.add(a, Use::Through(of))),
+                ref op => op.operands().into_iter().for_each(|a| uses.add(a, Use::Through(of))),
             }
         }
         uses

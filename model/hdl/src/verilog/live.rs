@@ -47,18 +47,7 @@ impl Live {
                     ram.write.iter().flat_map(|&(enable, address, word)| [enable, address, word]),
                 );
             }
-            ref op => open.extend(operands(op)),
+            ref op => open.extend(op.operands()),
         }
-    }
-}
-
-/// The wires that an operation takes.
-pub fn operands(op: &Op) -> Vec<Node> {
-    match *op {
-        Op::Constant(_) | Op::Input(_) | Op::Register(_) | Op::Data(_) | Op::Output(..) => vec![],
-        Op::Abs(a) | Op::Fit(a, ..) | Op::Scale(a) | Op::Bits(a, _) | Op::Not(a) => vec![a],
-        Op::Add(a, b) | Op::Sub(a, b) | Op::Mul(a, b) | Op::Concat(a, b) => vec![a, b],
-        Op::Less(a, b) | Op::Equal(a, b) | Op::And(a, b) | Op::Or(a, b) => vec![a, b],
-        Op::Select(bit, a, b) => vec![bit, a, b],
     }
 }

@@ -33,6 +33,8 @@ pub struct Files {
     pub profiles: Vec<String>,
     /// Calibrations.
     pub calibrations: Vec<String>,
+    /// Tunings of force controllers.
+    pub tunings: Vec<String>,
     /// Captures.
     pub captures: Vec<String>,
     /// Plans of sweeps.
@@ -63,6 +65,7 @@ impl Desk {
     pub fn new(program: &Path) -> Self {
         let mut desk = Desk::of_seeds(program);
         desk.captures();
+        desk.tuned();
         desk.sweep();
         desk
     }
@@ -78,6 +81,7 @@ impl Desk {
         desk.files.scenes = desk.texts("scene");
         desk.files.profiles = desk.texts("profile");
         desk.files.calibrations = desk.texts("calibration");
+        desk.files.tunings = desk.texts("tuning");
         desk.files.plans = desk.texts("plan");
         desk.files.measurements = desk.measurements();
         desk.write("folder.toml/inner", b"");
@@ -160,6 +164,15 @@ impl Desk {
             self.write(&format!("sigmf{number}.sigmf-data"), &seed[end + 1..]);
             self.files.captures.push(name);
         }
+    }
+
+    /// The profile and the tuning of a run with a force controller.
+    fn tuned(&mut self) {
+        const LOOP: &str = "sine 0.3 N, closed loop";
+        let run = ["simulate", "fig9", "--case", LOOP, "--waves", "none", "--out", "loop"];
+        self.hapticore(&run);
+        self.files.profiles.push("loop/profile.toml".into());
+        self.files.tunings.push("loop/tuning.toml".into());
     }
 
     /// A store with a plan and all but the results of its points.

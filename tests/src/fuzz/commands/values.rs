@@ -78,6 +78,7 @@ impl<'a> Values<'a> {
             (_, "case") => self.case(rng, scene),
             (_, "profile") => either(rng, &BUNDLED.map(|(name, _)| name), &files.profiles),
             (_, "calibration") => one(rng, &files.calibrations),
+            (_, "tuning") => one(rng, &files.tunings),
             ("replay", "capture") => one(rng, &files.captures),
             (_, "capture") => one(
                 rng,

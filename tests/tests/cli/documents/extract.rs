@@ -46,7 +46,8 @@ pub fn blocks(document: &str, text: &str) -> Vec<Block> {
 /// The lines of its blocks of commands, and its spans of code that begin as a command does.
 pub fn snippets(document: &str, text: &str) -> Vec<Snippet> {
     let of_block = |block: &Block| {
-        let lines = block.text.lines().map(without_comment).filter(|line| !line.is_empty());
+        let text = joined(&block.text);
+        let lines = text.lines().map(without_comment).filter(|line| !line.is_empty());
         let snippet = |text: String| Snippet { place: block.place.clone(), text, in_block: true };
         lines.map(snippet).collect::<Vec<_>>()
     };
@@ -54,6 +55,11 @@ pub fn snippets(document: &str, text: &str) -> Vec<Snippet> {
     let mut snippets: Vec<_> = blocks.flat_map(|block| of_block(&block)).collect();
     snippets.extend(spans(document, text).into_iter().filter(|span| is_command(&span.text)));
     snippets
+}
+
+/// A block whose lines that end with a backslash are one with the next.
+fn joined(block: &str) -> String {
+    block.split("\\\n").map(str::trim_start).collect()
 }
 
 /// Spans of code outside blocks; one may go on in the next line.
@@ -122,15 +128,15 @@ pub fn without_comment(line: &str) -> String {
 
 #[test]
 fn blocks_lines_and_spans_are_found() {
-    let text = "a `b` and `hapticore simulate\nfig6` but `x`.\n\n```sh\nls  # all\n# no\nhapticore scenes\n```\n`replay FILE`, `replay`\n";
+    let text = "a `b` and `hapticore simulate\nfig6` but `x`.\n\n```sh\nls  # all\n# no\nhapticore scenes \\\n  --json\n```\n`replay FILE`, `replay`\n";
     let found = snippets("d.md", text);
     let texts: Vec<_> =
         found.iter().map(|snippet| (snippet.place.as_str(), snippet.text.as_str())).collect();
     let expected = [
         ("d.md:4", "ls"),
-        ("d.md:4", "hapticore scenes"),
+        ("d.md:4", "hapticore scenes --json"),
         ("d.md:1", "hapticore simulate fig6"),
-        ("d.md:9", "replay FILE"),
+        ("d.md:10", "replay FILE"),
     ];
     assert_eq!(texts, expected);
 }

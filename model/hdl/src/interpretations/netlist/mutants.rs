@@ -183,7 +183,7 @@ fn depending(module: &Module, port: usize) -> Vec<bool> {
     let mut depends = Vec::new();
     for wire in &module.wires {
         let mut any = wire.op == Op::Input(port);
-        operands(&wire.op, |operand| {
+        wire.op.with_operands(|operand| {
             any |= depends[operand.0 as usize];
             operand
         });
@@ -260,7 +260,7 @@ impl Sink {
             Sink::Instance(own, port) => module.instances[own].inputs[port] = node,
             Sink::Operand(own, operand) => {
                 let mut index = 0;
-                let op = operands(&module.wires[own].op, |before| {
+                let op = module.wires[own].op.with_operands(|before| {
                     index += 1;
                     if index - 1 == operand { node } else { before }
                 });
@@ -381,36 +381,11 @@ impl Copy {
         let Wire { op, format, .. } = module.wires[node.0 as usize].clone();
         let copied = match op {
             Op::Input(port) if port == self.port => Op::Constant(0),
-            ref op => operands(op, |operand| self.of(module, operand)),
+            ref op => op.with_operands(|operand| self.of(module, operand)),
         };
         let copy = if copied == op { node } else { wire(module, copied, format) };
         self.known.insert(node, copy);
         copy
-    }
-}
-
-/// An operation with other operands.
-pub(super) fn operands(op: &Op, mut of: impl FnMut(Node) -> Node) -> Op {
-    match *op {
-        Op::Add(a, b) => Op::Add(of(a), of(b)),
-        Op::Sub(a, b) => Op::Sub(of(a), of(b)),
-        Op::Mul(a, b) => Op::Mul(of(a), of(b)),
-        Op::Abs(a) => Op::Abs(of(a)),
-        Op::Fit(a, rounding, overflow) => Op::Fit(of(a), rounding, overflow),
-        Op::Scale(a) => Op::Scale(of(a)),
-        Op::Bits(a, low) => Op::Bits(of(a), low),
-        Op::Concat(a, b) => Op::Concat(of(a), of(b)),
-        Op::Less(a, b) => Op::Less(of(a), of(b)),
-        Op::Equal(a, b) => Op::Equal(of(a), of(b)),
-        Op::And(a, b) => Op::And(of(a), of(b)),
-        Op::Or(a, b) => Op::Or(of(a), of(b)),
-        Op::Not(a) => Op::Not(of(a)),
-        Op::Select(bit, a, b) => Op::Select(of(bit), of(a), of(b)),
-        ref op @ (Op::Constant(_)
-        | Op::Input(_)
-        | Op::Register(_)
-        | Op::Data(_)
-        | Op::Output(..)) => op.clone(),
     }
 }
 
@@ -455,7 +430,7 @@ impl Order<'_> {
                 self.place(*input);
             });
         }
-        let op = operands(&op, |operand| self.place(operand));
+        let op = op.with_operands(|operand| self.place(operand));
         self.wires.push(Wire { op, format, name });
         let new = Node(self.wires.len() as u32 - 1);
         self.new.insert(node, new);

@@ -162,11 +162,7 @@ fn clock(
 fn result(op: &Op, module: &Module, words: &[Word], codes: &[i64], index: usize) -> Word {
     let of = |node: Node| words[node.0 as usize];
     let to = module.wires[index].format;
-    let mut operands = Vec::new();
-    super::mutants::operands(op, |node| {
-        operands.push(of(node));
-        node
-    });
+    let operands: Vec<Word> = op.operands().into_iter().map(of).collect();
     if operands.iter().all(|word| matches!(word, Known(_))) {
         return Known(operate(op, module, codes, to));
     }
