@@ -2,6 +2,7 @@
 //! What tests of single blocks share; their bench is that of the tests of whole cores
 //! (`model/tests/equality/`).
 
+#[path = "../tests/equality/campaign.rs"]
 pub mod campaign;
 mod comparison;
 #[allow(dead_code, reason = "tests of whole cores use the rest")]

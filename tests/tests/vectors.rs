@@ -144,6 +144,15 @@ fn faults_in_the_printed_text_are_noticed_by_the_vectors() {
 const HEAD: &str =
     "\n    integer fault;\n    initial if (!$value$plusargs(\"fault=%d\", fault)) fault = 0;\n";
 
+/// How the printed text says that `clear` makes something zero; `clear_faults` is a command of its own.
+const NOT_CLEAR: &str = "& not_clear";
+
+/// The name of the instance that a line begins.
+fn instance(line: &str) -> Option<&str> {
+    let name = line.trim_end().strip_suffix(" (")?.rsplit(' ').next()?;
+    name.starts_with("u_").then_some(name)
+}
+
 /// Where `clear` acts in the printed text, each number of a fault without it: what an instance is given, what the multiplexer's
 /// registers take, what the pace keeps.
 fn without_clear(users: &Users) -> (String, Vec<String>) {
@@ -155,10 +164,13 @@ fn without_clear(users: &Users) -> (String, Vec<String>) {
     for path in paths {
         let module = path.file_stem().expect("a name").to_string_lossy().into_owned();
         let (mut clears, known) = (false, faults.len());
-        let mut body = String::new();
+        let (mut body, mut within) = (String::new(), module.clone());
         for line in fs::read_to_string(&path).expect("a module").lines() {
+            // What an instance is given is named after it.
+            within = instance(line).map_or(within, |name| format!("{module}.{name}"));
             let mut fault = |line: &str| {
-                faults.push(format!("{module}: {}", line.trim()));
+                let place = if line.contains(".clear(") { &within } else { &module };
+                faults.push(format!("{place}: {}", line.trim()));
                 faults.len()
             };
             clears = (clears || line.trim() == "if (clear) begin") && !line.contains("end else");
@@ -166,8 +178,8 @@ fn without_clear(users: &Users) -> (String, Vec<String>) {
                 line.replace("(clear)", &format!("(clear & fault != {})", fault(line)))
             } else if clears && line.contains("<=") {
                 format!("if (fault != {}) {line}", fault(line))
-            } else if line.contains("<=") && line.contains("not_clear") {
-                line.replace("not_clear", &format!("(not_clear | fault == {})", fault(line)))
+            } else if line.split(NOT_CLEAR).skip(1).any(|rest| !rest.starts_with('_')) {
+                line.replace(NOT_CLEAR, &format!("& (not_clear | fault == {})", fault(line)))
             } else {
                 line.to_owned()
             };
@@ -183,12 +195,14 @@ fn without_clear(users: &Users) -> (String, Vec<String>) {
 }
 
 /// Faults without which nothing changes: flags that are about a sample, when there is none, and a port that nothing reads.
-const EQUIVALENT: [&str; 5] = [
+const EQUIVALENT: [&str; 6] = [
     "restart <= 1'd0;",
     "integrate <= 1'd0;",
     "first <= 1'd0;",
     "last <= 1'd0;",
-    "_estimator: .clear(clear),",
+    // No mean over windows, and no estimate that takes of earlier slots.
+    ".u_estimator: .clear(clear),",
+    ".u_haptic_voltage: .clear(clear),",
 ];
 
 /// A clear that does not reach a register keeps what was there: the next pad, a count, a window.

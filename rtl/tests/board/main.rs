@@ -2,15 +2,14 @@
 //! The board and its peripherals, clock by clock, against the model's core and against what they
 //! say of themselves.
 
+#[path = "../../../model/tests/equality/campaign.rs"]
+mod campaign;
 #[path = "../../../model/tests/equality/device.rs"]
 #[allow(dead_code)]
 mod device;
 #[path = "../../../model/tests/equality/random.rs"]
 #[allow(dead_code)]
 mod random;
-
-#[path = "../../../model/src/support/campaign.rs"]
-mod campaign;
 
 mod bench;
 mod blocks;

@@ -84,11 +84,11 @@ class Loop:
             getattr(self.dut, name).value = code
 
     async def sample(self, codes):
-        for clock in range(self.clocks):
-            self.dut.strobe.value = int(clock == 0)
+        self.dut.strobe.value = 1
+        for _ in range(self.clocks):
             self.dut.code.value = codes[self.asked]
             await self.tick()
-        self.dut.strobe.value = 0
+            self.dut.strobe.value = 0
 
 
 @cocotb.test()

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Vectors of the printed force loop, for `rtl/verilog/cocotb/loop_bench.v` and `test_loop.py`.
 //!
-//! Split pads on a sheet, each with a carrier of 101 periods per window. The drives rise to a target within the slew, a slot is
+//! Split pads on a sheet, each with a carrier of 21 periods per window. The drives rise to a target within the slew, a slot is
 //! abandoned with `clear` a clock after its strobe, the drives begin anew, are cleared, reach their target at once, and are switched off.
 //!
 //! | file | holds |

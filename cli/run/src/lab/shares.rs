@@ -22,7 +22,7 @@ const MOST_PLACES: usize = 700;
 const TRIED: usize = 150;
 
 /// 1, u, v, u², uv, v².
-const TERMS: usize = 6;
+const COEFFICIENTS: usize = 6;
 
 /// The shares of some places, as a calibration keeps them; none where places are too few.
 pub fn of(places: &[([f64; 2], Vec<f64>)]) -> Option<Shares> {
@@ -69,23 +69,23 @@ pub fn predicted(known: &Shares, at_mm: [f64; 2], without: Option<usize>) -> Opt
     near.truncate(NEAREST);
     let farthest = near.iter().map(|(square, _)| *square).fold(0.0, f64::max);
     let terminals = known.places[0].len() - 2;
-    let mut normal = SMatrix::<f64, TERMS, TERMS>::zeros();
-    let mut sides = DMatrix::<f64>::zeros(TERMS, terminals);
+    let mut normal = SMatrix::<f64, COEFFICIENTS, COEFFICIENTS>::zeros();
+    let mut sides = DMatrix::<f64>::zeros(COEFFICIENTS, terminals);
     for (square, index) in near {
         let row = &known.places[index];
         let [u, v] = [0, 1].map(|axis| (row[axis] - at_mm[axis]) / farthest.sqrt());
         let weight = (1.0 - 0.999 * square / farthest).powi(3);
-        let terms = SVector::<f64, TERMS>::from([1.0, u, v, u * u, u * v, v * v]);
+        let terms = SVector::<f64, COEFFICIENTS>::from([1.0, u, v, u * u, u * v, v * v]);
         normal += weight * terms * terms.transpose();
         for k in 0..terminals {
-            for term in 0..TERMS {
+            for term in 0..COEFFICIENTS {
                 sides[(term, k)] += weight * terms[term] * row[2 + k];
             }
         }
     }
     let inverse = normal.try_inverse()?;
     let share =
-        |k: usize| (0..TERMS).map(|term| inverse[(0, term)] * sides[(term, k)]).sum::<f64>();
+        |k: usize| (0..COEFFICIENTS).map(|term| inverse[(0, term)] * sides[(term, k)]).sum::<f64>();
     let shares: Vec<f64> = (0..terminals).map(share).collect();
     shares.iter().all(|share| share.is_finite()).then_some(shares)
 }

@@ -156,12 +156,7 @@ impl Printer<'_> {
         {
             let (range, name, words) =
                 (range(ram.format.width, ram.format.signed), &memories[index], ram.initial.len());
-            if ram.collision == Collision::DontCare && ram.write.is_some() {
-                text += "    (* no_rw_check *) // read-during-write: don't care\n";
-            }
-            if ram.block {
-                text += "    (* ram_style = \"block\" *)\n";
-            }
+            text += &attributes(module, ram);
             let _ = writeln!(
                 text,
                 "    reg {range}{name} [0:{}]; // {words} words {}",
@@ -341,6 +336,23 @@ fn initial(ram: &Ram, name: &str) -> String {
         }
     }
     text + "    end\n\n"
+}
+
+/// Attributes of a memory's declaration.
+fn attributes(module: &Module, ram: &Ram) -> String {
+    let is_constant = |node: Node| matches!(module.wires[node.0 as usize].op, Op::Constant(_));
+    let mut text = String::new();
+    if ram.collision == Collision::DontCare && ram.write.is_some() {
+        text += "    (* no_rw_check *) // read-during-write: don't care\n";
+    }
+    if ram.block {
+        text += "    (* ram_style = \"block\" *)\n";
+    }
+    // Yosys makes registers of a memory that only a constant addresses, and warns unless it is asked to.
+    if ram.write.is_some_and(|(_, address, _)| is_constant(address)) {
+        text += "    (* mem2reg *)\n";
+    }
+    text
 }
 
 #[cfg(test)]
