@@ -10,6 +10,8 @@ mod comparison;
 pub mod device;
 #[path = "../tests/equality/harness.rs"]
 mod harness;
+#[path = "../tests/equality/in_place.rs"]
+mod in_place;
 #[path = "../tests/equality/never_skips.rs"]
 pub mod never_skips;
 #[path = "../tests/equality/random.rs"]

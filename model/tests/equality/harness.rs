@@ -4,12 +4,13 @@
 use hapticore_hdl::block::{Block, Edit, Inputs, Interpretation, Outputs, State, Submodule};
 use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::Format;
-use hapticore_hdl::interpretations::netlist::mutants;
 use hapticore_hdl::interpretations::netlist::simulation::Simulation;
 use hapticore_hdl::memory::Memory;
 use hapticore_hdl::probe::{Variable, sample, variables};
 use hapticore_hdl::signal::Signal;
 use std::any::Any;
+
+use super::in_place::in_place_of;
 
 /// Operations of a test: all of them where code is optimised, one of two hundred where it is not; one of as many as
 /// `HAPTICORE_SHARE` says where that is set. Of few operations eight.
@@ -34,7 +35,7 @@ impl<B: Block, V: Interpretation> Bench<B, V> {
         let mut state: State<B, V> = block.reset();
         let mut netlist = None;
         if let Some(state) = (&mut state as &mut dyn Any).downcast_mut::<State<B, i64>>() {
-            netlist = mutants::in_place_of(&block).map(Box::new);
+            netlist = in_place_of(&block).map(Box::new);
             netlist.iter_mut().for_each(|netlist| *state = netlist.reset(&block));
         }
         Bench { state, block, clock: 0, netlist }

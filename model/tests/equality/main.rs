@@ -19,6 +19,7 @@ mod device;
 mod harness;
 mod ideal;
 mod idle;
+mod in_place;
 mod interpreter;
 mod netlists;
 mod never_skips;

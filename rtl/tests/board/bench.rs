@@ -4,10 +4,11 @@
 use hapticore_hdl::block::{Block, Edit, Inputs, Outputs, State, Submodule};
 use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::Format;
-use hapticore_hdl::interpretations::netlist::mutants;
 use hapticore_hdl::interpretations::netlist::simulation::Simulation;
 use hapticore_hdl::memory::{Memory, Storage};
 use hapticore_hdl::signal::Signal;
+
+use crate::in_place::in_place_of;
 
 /// A block and its registers.
 #[derive(Clone)]
@@ -21,7 +22,7 @@ pub struct Bench<B: Block> {
 impl<B: Block> Bench<B> {
     /// The block at reset.
     pub fn new(block: B) -> Self {
-        let mut netlist = mutants::in_place_of(&block);
+        let mut netlist = in_place_of(&block);
         let reset = netlist.as_mut().map(|netlist| netlist.reset(&block));
         Bench { state: reset.unwrap_or_else(|| block.reset()), block, netlist }
     }

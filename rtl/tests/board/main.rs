@@ -7,6 +7,8 @@ mod campaign;
 #[path = "../../../model/tests/equality/device.rs"]
 #[allow(dead_code)]
 mod device;
+#[path = "../../../model/tests/equality/in_place.rs"]
+mod in_place;
 #[path = "../../../model/tests/equality/random.rs"]
 #[allow(dead_code)]
 mod random;

@@ -3,7 +3,7 @@
 localparam HAPTICORE_PADS = 4; // served in turn
 localparam HAPTICORE_CHANNELS = 8; // of the ADC: terminals, sensing voltage, haptic voltage
 localparam HAPTICORE_CLOCKS_PER_SAMPLE = 25; // from one strobe to the next
-localparam HAPTICORE_SLOT_SAMPLES = 1700; // of a pad's slot
+localparam HAPTICORE_SLOT_SAMPLES = 400; // of a pad's slot
 localparam HAPTICORE_LATENCY = 8956; // clocks from a slot's last strobe to its frame's last word
 localparam HAPTICORE_TABLE_WORDS = 6285; // of the position table
 localparam HAPTICORE_STROBE_BITS = 1; // of the port

@@ -81,7 +81,6 @@ pub fn plant_half_off() -> Outcome {
         let spread = of_law().map(|(_, (spread, _))| *spread).fold(0.0, f64::max);
         let texts: Vec<_> = of_law()
             .map(|((_, (plant, _)), (spread, force_n))| {
-                println!("{name} {plant}: {spread} {force_n}");
                 format!("{plant} {:+.1}", 100.0 * (force_n / 0.3 - 1.0))
             })
             .collect();

@@ -16,13 +16,9 @@
 use super::simulation::Simulation;
 use super::start::is_irrelevant;
 use super::{Module, Named, Netlist, Node, Op, Wire};
-use crate::block::Block;
 use crate::format::{BIT, Format};
-use std::collections::{BTreeSet, HashMap};
+use std::collections::HashMap;
 use std::fmt;
-use std::hash::{DefaultHasher, Hash, Hasher};
-use std::io::Write;
-use std::sync::Mutex;
 
 /// The inputs of blocks that make registers begin anew.
 pub const BEGINS: [&str; 5] = ["clear", "restart", "first", "start", "reset"];
@@ -108,54 +104,11 @@ impl Mutant {
         starts.iter().for_each(|&(module, register, code)| simulation.set(module, register, code));
         found.then_some(simulation)
     }
-}
 
-/// The netlist of a block to be clocked in its place, where a test of the block is judged: with the mutant that
-/// `HAPTICORE_MUTANT` names, or unchanged where that is `none`. `None` where no module of the block has the mutant.
-/// The names of all its mutants go to the file `HAPTICORE_MUTANTS`, with the test and the block that each is in.
-///
-/// # Panics
-/// Where the file cannot be written.
-pub fn in_place_of<B: Block>(block: &B) -> Option<Simulation> {
-    let name = std::env::var("HAPTICORE_MUTANT").ok()?;
-    let netlist = Netlist::of(block);
-    if let Ok(path) = std::env::var("HAPTICORE_MUTANTS") {
-        list(&netlist, &path);
+    /// Whether it is proved that no output of the design, whose top the mutant is in, depends on it.
+    pub fn is_equivalent(&self, netlist: &Netlist) -> bool {
+        matches!(self.fault, Fault::Reset(register) if is_irrelevant(netlist, register))
     }
-    if name == "none" {
-        Some(Simulation::new(netlist))
-    } else {
-        Mutant::simulation(&netlist, &name)
-    }
-}
-
-/// Appends the mutants of a design to a file, those of each test and design once: test, path of the block, whether it is the design's top
-/// (`own`; `equivalent` where that is proved) or `within`, name of the mutant.
-fn list(netlist: &Netlist, path: &str) {
-    static LISTED: Mutex<BTreeSet<(String, u64)>> = Mutex::new(BTreeSet::new());
-    let thread = std::thread::current();
-    let (test, mut text) = (thread.name().unwrap_or_default(), String::new());
-    let mut hasher = DefaultHasher::new();
-    netlist.modules.hash(&mut hasher);
-    // Other threads wait: they may ask for the same.
-    let mut listed = LISTED.lock().expect("no test panics here");
-    if !listed.insert((test.into(), hasher.finish())) {
-        return;
-    }
-    for (index, module) in netlist.modules.iter().enumerate() {
-        let own = index + 1 == netlist.modules.len();
-        for mutant in Mutant::all(netlist, module) {
-            let place = match mutant.fault {
-                _ if !own => "within",
-                Fault::Reset(register) if is_irrelevant(netlist, register) => "equivalent",
-                _ => "own",
-            };
-            text += &format!("{test}\t{}\t{place}\t{mutant}\n", module.path);
-        }
-    }
-    let file = std::fs::File::options().append(true).create(true).open(path);
-    file.and_then(|mut file| file.write_all(text.as_bytes()))
-        .expect("the list of mutants is written");
 }
 
 /// Registers that start with another code than zero.
