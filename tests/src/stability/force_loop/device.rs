@@ -80,7 +80,7 @@ pub fn plant_half_off() -> Outcome {
         let of_law = || all.iter().zip(&found).filter(|(((of, _), _), _)| *of == law);
         let spread = of_law().map(|(_, (spread, _))| *spread).fold(0.0, f64::max);
         let texts: Vec<_> = of_law()
-            .map(|((_, (plant, _)), (spread, force_n))| {
+            .map(|((_, (plant, _)), (_, force_n))| {
                 format!("{plant} {:+.1}", 100.0 * (force_n / 0.3 - 1.0))
             })
             .collect();
