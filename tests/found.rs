@@ -27,9 +27,11 @@ const COMMANDS: [&str; 15] = [
 const FETCHED: &str = "synth/tools";
 
 /// Prints what cargo is to know, for the crate whose folder is `to_root` from the workspace.
+///
+/// Another `PATH`, as that of a virtual environment, builds nothing anew: `./test` changes this file's time where it finds other
+/// commands than before.
 pub fn set(to_root: &str) {
     println!("cargo::rerun-if-changed=build.rs");
-    println!("cargo::rerun-if-env-changed=PATH");
     println!("cargo::rerun-if-env-changed=CI");
     let names = COMMANDS.iter().chain([&FETCHED]).map(|name| format!("{name:?}"));
     println!("cargo::rustc-check-cfg=cfg(tool, values({}))", names.collect::<Vec<_>>().join(", "));
