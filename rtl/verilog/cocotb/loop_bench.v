@@ -8,6 +8,7 @@
 //   samples.csv  one code per channel      a row per strobe: terminals, sensing voltage, haptic voltage; further columns are ignored
 //   drives.csv   pad,drive,low,high,silence,sensor,force   a row per drive word, expected; may be missing
 //   frames.csv   pad,index,word,clipped,saturated,invalid,lost,lifted   a row per word of a frame, expected; may be missing
+//   pins.csv     clock,serve,closed,overrun   a row per clock after reset at which one of them changes, expected; may be missing
 //
 // Reads them from the folder it runs in and writes got.csv, in the columns of drives.csv. Compile with the folder of the printed
 // loop on the include path (hapticore.vh), its top module as LOOP, and WALLS where its profile has walls:
@@ -43,6 +44,8 @@ module loop_bench;
     wire [HAPTICORE_DRIVE_PAD_BITS-1:0] drive_pad;
     wire [HAPTICORE_DRIVE_BITS-1:0] drive;
     wire signed [HAPTICORE_FRAME_BITS-1:0] frame;
+    wire [HAPTICORE_PAD_BITS-1:0] serve;
+    wire closed, overrun;
     wire valid, clipped, saturated, invalid, lost, lifted, drive_valid, drive_low, drive_high, silence_fault, sensor_fault, force_fault;
 `ifdef WALLS
     reg wall_write = 0, wall_right = 0;
@@ -63,16 +66,19 @@ module loop_bench;
         .wall_write(wall_write), .wall_pad(wall_pad), .wall_surface(wall_surface), .wall_right(wall_right),
         .wall_stiffness(wall_stiffness), .wall_most(wall_most), .wall_factory(wall_factory), .wall_restart(1'b0),
 `endif
-        .drives_clear(drives_clear), .tick(tick_ms), .extremes_read(1'b0), .channel(channel), .valid(valid), .index(index), .frame(frame), .pad(pad), .clipped(clipped),
+        .drives_clear(drives_clear), .tick(tick_ms), .extremes_read(1'b0), .channel(channel), .serve(serve), .closed(closed), .overrun(overrun), .valid(valid), .index(index), .frame(frame), .pad(pad), .clipped(clipped),
         .saturated(saturated), .invalid(invalid), .lost(lost), .lifted(lifted), .drive_valid(drive_valid), .drive_pad(drive_pad), .drive(drive),
         .drive_low(drive_low), .drive_high(drive_high), .silence_fault(silence_fault), .sensor_fault(sensor_fault),
         .force_fault(force_fault)
     );
 
-    integer codes, events, samples, drives, frames, got;
+    integer codes, events, samples, drives, frames, pins, got;
     integer found, letter, place, value, more, next_row, row, period, step, driven, words, wrong;
     integer set [0:HAPTICORE_CHANNELS-1];
     integer want [0:7];
+    integer now [0:2];
+    integer then [0:2];
+    integer clocks, next_pins;
     reg [8*32-1:0] name;
     // The core names the channel whose code it wants in the next clock.
     reg [HAPTICORE_CHANNEL_BITS-1:0] asked = 0;
@@ -113,10 +119,27 @@ module loop_bench;
         end
     endtask
 
-    // A clock: inputs are there before its edge; outputs that are registers are compared behind it.
+    // Each row of pins.csv holds until the next.
+    task compare_pins;
+        begin
+            if (clocks == next_pins) begin
+                for (found = 0; found < 3; found = found + 1) now[found] = then[found];
+                found = $fscanf(pins, "%d,%d,%d,%d\n", next_pins, then[0], then[1], then[2]);
+            end
+            if (serve !== now[0] || closed !== now[1] || overrun !== now[2]) begin
+                if (wrong < 100) $display("clock %0d: serve %0d closed %b overrun %b, expected %0d %0d %0d", clocks, serve, closed,
+                    overrun, now[0], now[1], now[2]);
+                wrong = wrong + 1;
+            end
+            clocks = clocks + 1;
+        end
+    endtask
+
+    // A clock: inputs are there before its edge, and pins are compared before it; outputs that are registers, behind it.
     task tick;
         begin
             #9 asked = channel;
+            if (!reset && pins != 0) compare_pins;
             #1 clock = 1;
             #10 clock = 0;
             #1;
@@ -239,12 +262,19 @@ module loop_bench;
         samples = $fopen("samples.csv", "r");
         drives = $fopen("drives.csv", "r");
         frames = $fopen("frames.csv", "r");
+        pins = $fopen("pins.csv", "r");
         got = $fopen("got.csv", "w");
         $fdisplay(got, "pad,drive,low,high,silence,sensor,force");
         skip_head(samples);
         skip_line(events);
         if (drives != 0) skip_line(drives);
         if (frames != 0) skip_line(frames);
+        clocks = 0;
+        next_pins = -1;
+        if (pins != 0) begin
+            skip_line(pins);
+            found = $fscanf(pins, "%d,%d,%d,%d\n", next_pins, then[0], then[1], then[2]);
+        end
         repeat (4) tick;
         reset = 0;
         read_word(codes);

@@ -11,6 +11,7 @@
 //! | loop_samples.csv | a row a strobe |
 //! | loop_drives.csv | a row a drive word, its limits and faults behind it |
 //! | loop_frames.csv | a row a word of a frame, flags behind it |
+//! | loop_pins.csv | which pad is closed and whether strobes came too early, a row for each clock after reset at which it is new |
 
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
@@ -51,6 +52,9 @@ struct Bench {
     samples: String,
     drives: String,
     frames: String,
+    clocks: i64,
+    pins: [i64; 3],
+    changes: String,
 }
 
 /// The outputs of these names.
@@ -78,6 +82,9 @@ impl Bench {
             samples: text("i1,i2,i3,i4,i5,i6,v_sense,v_haptic\n"),
             drives: text("pad,drive,low,high,silence,sensor,force\n"),
             frames: format!("pad,index,word,{flags}\n"),
+            clocks: 0,
+            pins: [-1; 3],
+            changes: text("clock,serve,closed,overrun\n"),
         }
     }
 
@@ -89,6 +96,12 @@ impl Bench {
             Outputs::map(self.block.step(&mut self.state, signals), |signal| signal.value);
         let [asked, valid, driven] = outputs_of(outputs, ["channel", "valid", "drive_valid"]);
         self.asked = asked as usize;
+        let pins = outputs_of(outputs, ["serve", "closed", "overrun"]);
+        if pins != self.pins {
+            self.pins = pins;
+            line(&mut self.changes, &[&[self.clocks], &pins[..]].concat());
+        }
+        self.clocks += 1;
         if valid == 1 {
             let flags = ["clipped", "saturated", "invalid", "lost", "lifted"];
             let word = outputs_of(outputs, ["pad", "index", "frame"]);
@@ -262,5 +275,6 @@ pub fn files() -> Vec<File> {
         file("samples", bench.samples),
         file("drives", bench.drives),
         file("frames", bench.frames),
+        file("pins", bench.changes),
     ]
 }
