@@ -221,7 +221,7 @@ fn codes(profile: &Profile, number: u64, sample: u64) -> Vec<i64> {
     amplitudes.chain([HAPTIC]).map(|value| format.code_saturating(value)).collect()
 }
 
-/// A slot, or the first samples of one, the last strobe of which is a clock before `clear`.
+/// A slot, or the first samples of one, whose last strobe is too early and a clock before `clear`. The next strobe is at once.
 fn slot(bench: &mut Bench, profile: &Profile, number: u64, cut: Option<u64>) {
     let blanking = profile.slot.blanking();
     for sample in 0..cut.unwrap_or(profile.slot.samples()) {
@@ -229,15 +229,14 @@ fn slot(bench: &mut Bench, profile: &Profile, number: u64, cut: Option<u64>) {
             Some(sample) => codes(profile, number, sample),
             None => vec![0; profile.channels()],
         };
-        let is_last = cut == Some(sample + 1);
-        if is_last {
+        let is_early = cut.is_some_and(|cut| sample + 2 >= cut);
+        if cut == Some(sample + 2) {
             bench.write("clocks", None, 1);
         }
-        bench.sample(&codes, if is_last { 1 } else { profile.clocks_per_sample });
+        bench.sample(&codes, if is_early { 1 } else { profile.clocks_per_sample });
     }
     if cut.is_some() {
-        // Until the next strobe is due.
-        (0..profile.clocks_per_sample).for_each(|_| bench.write("clear", None, 1));
+        bench.write("clear", None, 1);
         bench.write("clocks", None, profile.clocks_per_sample as i64);
     }
 }
