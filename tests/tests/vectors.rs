@@ -205,10 +205,12 @@ const EQUIVALENT: [&str; 6] = [
     ".u_haptic_voltage: .clear(clear),",
 ];
 
-/// Faults that the vectors do not notice: no pad is pushed into a wall or out of it beside a `clear`, no estimate is under way.
-const OPEN: [&str; 4] = [
+/// Faults that the vectors do not notice: no pad is pushed into a wall or out of it beside a `clear`, no estimate is under way, and no
+/// strobe comes with it.
+const OPEN: [&str; 5] = [
     "hapticore_loop_estimator.u_force_table: .clear(clear),",
     "hapticore_loop_multiplexer: sample <= 1'd0;",
+    "hapticore_loop_pace: left <= (strobe & not_clear) ? 5'd24 : left_is_0 ? 5'd0 : left_minus_1[4:0];",
     "hapticore_loop_split_pad: wire bit_1fa0 = placed & not_clear; // u1.0",
     "hapticore_loop_split_pad: wire bit_981e = driven & not_clear; // u1.0",
 ];

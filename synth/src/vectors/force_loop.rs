@@ -221,7 +221,7 @@ fn codes(profile: &Profile, number: u64, sample: u64) -> Vec<i64> {
     amplitudes.chain([HAPTIC]).map(|value| format.code_saturating(value)).collect()
 }
 
-/// A slot, or the first samples of one, whose last strobe is too early and a clock before `clear`. The next strobe is at once.
+/// A slot, or the first samples of one, whose last strobe is too early and a clock before `clear`.
 fn slot(bench: &mut Bench, profile: &Profile, number: u64, cut: Option<u64>) {
     let blanking = profile.slot.blanking();
     for sample in 0..cut.unwrap_or(profile.slot.samples()) {
@@ -236,7 +236,8 @@ fn slot(bench: &mut Bench, profile: &Profile, number: u64, cut: Option<u64>) {
         bench.sample(&codes, if is_early { 1 } else { profile.clocks_per_sample });
     }
     if cut.is_some() {
-        bench.write("clear", None, 1);
+        // Until the next strobe is due.
+        (0..profile.clocks_per_sample).for_each(|_| bench.write("clear", None, 1));
         bench.write("clocks", None, profile.clocks_per_sample as i64);
     }
 }
