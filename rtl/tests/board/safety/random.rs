@@ -3,7 +3,8 @@
 //! rail or above the slew from zero that were set since the last reset. Here: 0 V within its time, and that the drive
 //! reaches a lawful target.
 //!
-//! `SAFETY_SEQUENCES=10000 cargo test --release -p hapticore-rtl --test board safety::random -- --nocapture`
+//! `SAFETY_SEQUENCES=10000 cargo test --release -p hapticore-rtl --test board safety::random -- --nocapture`, or a part of
+//! them: `SAFETY_SEQUENCES=2000..4000`.
 
 use super::rig::{AT_ONCE, FULL_SCALE_V, PADS, Pad, Rig, open_drive, tuning};
 use crate::random::Random;
@@ -132,10 +133,17 @@ fn sequence(ready: &Rig, law: Law, number: u64) -> Told {
     told
 }
 
+/// The numbers of the sequences, the end excluded.
+fn wanted() -> (u64, u64) {
+    let Ok(text) = std::env::var("SAFETY_SEQUENCES") else { return (0, SEQUENCES) };
+    let number = |text: &str| text.parse().expect("SAFETY_SEQUENCES: expected N or FROM..TO");
+    text.split_once("..")
+        .map_or_else(|| (0, number(&text)), |(from, to)| (number(from), number(to)))
+}
+
 #[test]
 fn no_sequence_drives_above_rail_or_slew_and_a_lawful_target_is_reached() {
-    let count = std::env::var("SAFETY_SEQUENCES").ok();
-    let count = count.map_or(SEQUENCES, |count| count.parse().expect("a number of sequences"));
+    let (first, end) = wanted();
     let worker = |part: u64| {
         let laws = [Law::Open, Law::Inverse, Law::Integral];
         let mut told = Told::default();
@@ -148,7 +156,7 @@ fn no_sequence_drives_above_rail_or_slew_and_a_lawful_target_is_reached() {
                 (law, rig)
             })
             .collect();
-        for number in (part..count).step_by(2) {
+        for number in (first + part..end).step_by(2) {
             let (law, rig) = &ready[[0, 0, 0, 1, 0, 2][(number / 2 % 6) as usize]];
             let one = sequence(rig, *law, number);
             told.sequences += 1;
