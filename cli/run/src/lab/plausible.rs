@@ -3,7 +3,7 @@
 //!
 //! | fault | is seen by | needs |
 //! | --- | --- | --- |
-//! | places in cm, m or inches | the largest of them beside half of the sheet | `[sheet]`; without it places within [`SMALL_MM`] are warned of |
+//! | places in cm, m or inches | the largest of them beside half of the sheet | `[sheet]`; without it places within `SMALL_MM` are warned of |
 //! | places from a corner | no place is negative, and the ratio has both signs, or the largest place is beyond half of the sheet | – |
 //! | a current that reads a part of what it is | the sum of all currents, which is the pad's admittance at every place: Σ w_k·|I_k|/V = 1 by least squares, a_k = median(w)/w_k | places for each terminal |
 
