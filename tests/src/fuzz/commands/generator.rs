@@ -13,7 +13,11 @@ use super::tally::{is_help, name};
 use super::values::{self, Values};
 
 /// Subcommands of many options or inputs come oftener than others.
-const OFTEN: [(&str, u32); 2] = [("simulate", 8), ("replay", 5)];
+const OFTEN: [(&str, u32); 4] = [("simulate", 8), ("replay", 5), ("hdl", 6), ("codes", 3)];
+
+/// What the parser takes only beside another option: subcommand, option, the other.
+const BESIDE: [(&str, &str, &str); 2] =
+    [("hdl", "clock_hz", "dac"), ("hdl", "full_scale_v", "dac")];
 
 /// One value in so many is hostile.
 const HOSTILE: u32 = 12;
@@ -102,12 +106,19 @@ impl<'a> Generator<'a> {
         let rarest = optional.min_by_key(used).map(|argument| argument.get_id().clone());
         let rarest = rarest.filter(|_| self.rng.u8(..3) > 0);
         let mut chosen = Vec::new();
-        for argument in all {
+        for argument in &all {
             let share =
                 if argument.is_required_set() || argument.is_positional() { 0.98 } else { 0.17 };
             if rarest.as_ref() == Some(argument.get_id()) || self.rng.f64() < share {
                 *self.used.entry(name(path, argument)).or_default() += 1;
-                chosen.push(argument.clone());
+                chosen.push((*argument).clone());
+            }
+        }
+        let has = |chosen: &[Arg], id: &str| chosen.iter().any(|argument| argument.get_id() == id);
+        for (_, id, other) in BESIDE.iter().filter(|(of, ..)| *of == path) {
+            if has(&chosen, id) && !has(&chosen, other) {
+                let other = all.iter().find(|argument| argument.get_id() == other);
+                chosen.extend(other.map(|argument| (*argument).clone()));
             }
         }
         chosen
