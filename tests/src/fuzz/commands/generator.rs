@@ -59,11 +59,12 @@ impl<'a> Generator<'a> {
 
     /// A line, without the command's own name.
     pub fn line(&mut self) -> Vec<OsString> {
-        let (path, leaf) = self.leaf();
+        let seldom = self.rng.bool();
+        let (path, leaf) = if seldom { self.rarest() } else { self.leaf() };
         let scene = self.values.scene(&mut self.rng);
         let mut groups: Vec<Vec<OsString>> = Vec::new();
         let mut positionals = Vec::new();
-        for argument in self.arguments(&path, &leaf) {
+        for argument in self.arguments(&path, &leaf, seldom) {
             let words = self.words(&path, &argument, &scene);
             // Positional ones keep their order, wherever options stand.
             let group = if argument.is_positional() { &mut positionals } else { &mut groups };
@@ -98,13 +99,26 @@ impl<'a> Generator<'a> {
         chosen.expect("the weights' sum").clone()
     }
 
-    /// The arguments of a line: those required, the rarest in two of three lines, and one in six of the others.
-    fn arguments(&mut self, path: &str, leaf: &Command) -> Vec<Arg> {
+    /// The subcommand of the optional argument that came most seldom.
+    fn rarest(&self) -> (String, Command) {
+        let count = |(path, leaf): &&(String, Command)| {
+            let optional = leaf
+                .get_arguments()
+                .filter(|argument| !is_help(argument) && !argument.is_required_set());
+            let used = |argument: &Arg| self.used.get(&name(path, argument)).copied();
+            optional.map(|argument| used(argument).unwrap_or(0)).min().unwrap_or(usize::MAX)
+        };
+        self.leaves.iter().min_by_key(count).expect("a subcommand").clone()
+    }
+
+    /// The arguments of a line: those required, the rarest in two of three lines and always in a line that is made for it
+    /// (`seldom`), and one in six of the others.
+    fn arguments(&mut self, path: &str, leaf: &Command, seldom: bool) -> Vec<Arg> {
         let all: Vec<&Arg> = leaf.get_arguments().filter(|argument| !is_help(argument)).collect();
         let used = |argument: &&&Arg| self.used.get(&name(path, argument)).copied().unwrap_or(0);
         let optional = all.iter().filter(|argument| !argument.is_required_set());
         let rarest = optional.min_by_key(used).map(|argument| argument.get_id().clone());
-        let rarest = rarest.filter(|_| self.rng.u8(..3) > 0);
+        let rarest = rarest.filter(|_| seldom || self.rng.u8(..3) > 0);
         let mut chosen = Vec::new();
         for argument in &all {
             let share =
