@@ -185,7 +185,8 @@ impl<'a> Generator<'a> {
         let (at, to) = (self.rng.usize(..line.len()), self.rng.usize(..line.len()));
         match self.rng.u8(..5) {
             0 => line.insert(to, line[at].clone()),
-            1 => drop(line.remove(at)),
+            // Without a word the command prints its help.
+            1 if line.len() > 1 => drop(line.remove(at)),
             2 => line.swap(at, to),
             3 => {
                 let text = line[at].to_string_lossy().into_owned();

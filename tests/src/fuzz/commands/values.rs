@@ -120,6 +120,7 @@ impl<'a> Values<'a> {
             }
             (_, "bode") => one(rng, &["0.3", "0.05", "1e-9", "100", "1e300", "5e-324"]),
             (_, "clock_hz") => one_of(rng, "25000000 12000000 1000000 200000000 999999 0 1e6 -1"),
+            ("hdl", "full_scale_v") => one_of(rng, "500 100 1 65535 0"),
             (_, "full_scale_v") => one_of(rng, "10 5 1 0.5 1e-300 1e300 5e-324 0 nan"),
             _ => alternatives(rng, of, argument),
         }
