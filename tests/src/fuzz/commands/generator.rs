@@ -27,7 +27,7 @@ const SHORT: &str = "--set=duration_s=0.01";
 
 /// What ends a run of `tradeoff` as soon as its options are read, in all but one of so many lines: it takes many seconds.
 const REFUSED: &str = "--scene=no-such-scene";
-const RUN: u32 = 60;
+const RUN: u32 = 600;
 
 /// What keeps the others short.
 const FEW: [(&str, &str); 2] = [("--scene", "minimal-sheet"), ("--slots", "1")];
