@@ -70,7 +70,7 @@ fn gates_close_the_loop_as_the_model_does(
     println!("{family}, {profile}: {} clocks of a force loop equal in gates", trace.clocks());
 }
 
-/// Not on iCE40: walls fit no such part. The core of `small` in the cells of ECP5 is in here.
+/// Not on iCE40: walls fit no such part.
 #[test]
 #[cfg_attr(
     not(all(
@@ -120,6 +120,21 @@ fn ecp5_gates_close_the_force_loop_with_a_table_as_the_model_does() {
 )]
 fn ice40_gates_run_what_the_model_runs_small() {
     gates_run_what_the_model_runs("ice40", "small");
+}
+
+#[test]
+#[cfg_attr(
+    not(all(
+        tool = "synth/tools",
+        tool = "verilator",
+        tool = "make",
+        tool = "g++",
+        tool = "iverilog"
+    )),
+    ignore = "needs synth/tools, verilator, make, g++, iverilog: ./test fetches what is missing"
+)]
+fn ecp5_gates_run_what_the_model_runs_small() {
+    gates_run_what_the_model_runs("ecp5", "small");
 }
 
 #[test]
