@@ -201,13 +201,14 @@ const EQUIVALENT: [&str; 6] = [
     "first <= 1'd0;",
     "last <= 1'd0;",
     // No mean over windows, and no estimate that takes of earlier slots.
-    ".u_estimator: .clear(clear),",
+    "hapticore_small.u_estimator: .clear(clear),",
     ".u_haptic_voltage: .clear(clear),",
 ];
 
 /// Faults that the vectors do not notice: no pad is pushed into a wall or out of it beside a `clear`, no estimate is under way, and no
 /// strobe comes with it.
-const OPEN: [&str; 5] = [
+const OPEN: [&str; 6] = [
+    "hapticore_loop.u_estimator: .clear(clear),",
     "hapticore_loop_estimator.u_force_table: .clear(clear),",
     "hapticore_loop_multiplexer: sample <= 1'd0;",
     "hapticore_loop_pace: left <= (strobe & not_clear) ? 5'd24 : left_is_0 ? 5'd0 : left_minus_1[4:0];",

@@ -236,6 +236,10 @@ module loop_bench;
                 letter = $fgetc(samples); // behind the code
             end
             if (more && letter != "\n") skip_line(samples);
+            if (!more && step > 1) begin
+                $display("samples.csv: row %0d is cut: expected %0d codes, got %0d", row, HAPTICORE_CHANNELS, step - 1);
+                wrong = wrong + 1;
+            end
         end
     endtask
 
