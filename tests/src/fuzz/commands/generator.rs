@@ -27,7 +27,7 @@ const SHORT: &str = "--set=duration_s=0.01";
 
 /// What ends a run of `tradeoff` as soon as its options are read, in all but one of so many lines: it takes many seconds.
 const REFUSED: &str = "--scene=no-such-scene";
-const RUN: u32 = 600;
+const RUN: u32 = 60;
 
 /// What keeps the others short.
 const FEW: [(&str, &str); 2] = [("--scene", "minimal-sheet"), ("--slots", "1")];
@@ -74,12 +74,13 @@ impl<'a> Generator<'a> {
         let at = self.rng.usize(..=groups.len());
         groups.splice(at..at, positionals);
         let short = self.shortened(&path, &scene, &groups);
-        groups.extend(short);
         let mut line: Vec<OsString> = path.split(' ').map(OsString::from).collect();
         line.extend(groups.into_iter().flatten());
         if self.rng.u8(..10) == 0 {
             self.misplace(&mut line);
         }
+        // Behind what is misplaced, so that no such line runs in full.
+        line.extend(short.into_iter().flatten());
         line
     }
 

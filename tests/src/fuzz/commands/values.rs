@@ -70,8 +70,9 @@ impl<'a> Values<'a> {
     fn named(&self, rng: &mut Rng, of: &str, argument: &Arg, scene: &str) -> String {
         let files = &self.desk.files;
         match (of, argument.get_id().as_str()) {
-            // Others take more than the processor time that a line may.
-            ("tradeoff", "scene") => one(rng, &["minimal-sheet", "minimal-gap"]),
+            ("tradeoff", "scene") => {
+                one(rng, &["minimal-sheet", "minimal-gap", "fig6", "fig9", "wall-2d"])
+            }
             (_, "scene") => scene.to_string(),
             (_, "set") => self.setting(rng, scene),
             (_, "case") => self.case(rng, scene),
