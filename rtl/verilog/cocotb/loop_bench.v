@@ -3,12 +3,12 @@
 //
 //   codes.csv    name,address,code,…       words before the first sample: what `hapticore codes --format csv` prints
 //   events.csv   sample,name,address,code  words before a row of samples (0: the first); besides those of codes.csv
-//                enable, clear_faults, alive, tick, drives_clear and clear, and clocks: from one strobe to the next. A millisecond
-//                passes with each tick: without one nothing is driven
+//                enable, clear_faults, alive, tick, drives_clear, clear and clear_and_strobe, and clocks: from one strobe to the
+//                next. A millisecond passes with each tick: without one nothing is driven
 //   samples.csv  one code per channel      a row per strobe: terminals, sensing voltage, haptic voltage; further columns are ignored
 //   drives.csv   pad,drive,low,high,silence,sensor,force   a row per drive word, expected; may be missing
 //   frames.csv   pad,index,word,clipped,saturated,invalid,lost,lifted   a row per word of a frame, expected; may be missing
-//   pins.csv     clock,serve,closed,overrun   a row per clock after reset at which one of them changes, expected; may be missing
+//   pins.csv     clock,serve,closed,carrier,overrun   a row per clock after reset at which one of them changes, expected; may be missing
 //
 // Reads them from the folder it runs in and writes got.csv, in the columns of drives.csv. Compile with the folder of the printed
 // loop on the include path (hapticore.vh), its top module as LOOP, and WALLS where its profile has walls:
@@ -46,6 +46,7 @@ module loop_bench;
     wire signed [HAPTICORE_FRAME_BITS-1:0] frame;
     wire [HAPTICORE_PAD_BITS-1:0] serve;
     wire closed, overrun;
+    wire signed [HAPTICORE_CARRIER_BITS-1:0] carrier;
     wire valid, clipped, saturated, invalid, lost, lifted, drive_valid, drive_low, drive_high, silence_fault, sensor_fault, force_fault;
 `ifdef WALLS
     reg wall_write = 0, wall_right = 0;
@@ -66,7 +67,8 @@ module loop_bench;
         .wall_write(wall_write), .wall_pad(wall_pad), .wall_surface(wall_surface), .wall_right(wall_right),
         .wall_stiffness(wall_stiffness), .wall_most(wall_most), .wall_factory(wall_factory), .wall_restart(1'b0),
 `endif
-        .drives_clear(drives_clear), .tick(tick_ms), .extremes_read(1'b0), .channel(channel), .serve(serve), .closed(closed), .overrun(overrun), .valid(valid), .index(index), .frame(frame), .pad(pad), .clipped(clipped),
+        .drives_clear(drives_clear), .tick(tick_ms), .extremes_read(1'b0), .channel(channel), .serve(serve), .closed(closed), .carrier(carrier), .overrun(overrun),
+        .valid(valid), .index(index), .frame(frame), .pad(pad), .clipped(clipped),
         .saturated(saturated), .invalid(invalid), .lost(lost), .lifted(lifted), .drive_valid(drive_valid), .drive_pad(drive_pad), .drive(drive),
         .drive_low(drive_low), .drive_high(drive_high), .silence_fault(silence_fault), .sensor_fault(sensor_fault),
         .force_fault(force_fault)
@@ -76,8 +78,8 @@ module loop_bench;
     integer found, letter, place, value, more, next_row, row, period, step, driven, words, wrong;
     integer set [0:HAPTICORE_CHANNELS-1];
     integer want [0:7];
-    integer now [0:2];
-    integer then [0:2];
+    integer now [0:3];
+    integer then [0:3];
     integer clocks, next_pins;
     reg [8*32-1:0] name;
     // The core names the channel whose code it wants in the next clock.
@@ -123,12 +125,12 @@ module loop_bench;
     task compare_pins;
         begin
             if (clocks == next_pins) begin
-                for (found = 0; found < 3; found = found + 1) now[found] = then[found];
-                found = $fscanf(pins, "%d,%d,%d,%d\n", next_pins, then[0], then[1], then[2]);
+                for (found = 0; found < 4; found = found + 1) now[found] = then[found];
+                found = $fscanf(pins, "%d,%d,%d,%d,%d\n", next_pins, then[0], then[1], then[2], then[3]);
             end
-            if (serve !== now[0] || closed !== now[1] || overrun !== now[2]) begin
-                if (wrong < 100) $display("clock %0d: serve %0d closed %b overrun %b, expected %0d %0d %0d", clocks, serve, closed,
-                    overrun, now[0], now[1], now[2]);
+            if (serve !== now[0] || closed !== now[1] || carrier !== now[2] || overrun !== now[3]) begin
+                if (wrong < 100) $display("clock %0d: serve %0d closed %b carrier %0d overrun %b, expected %0d %0d %0d %0d", clocks,
+                    serve, closed, carrier, overrun, now[0], now[1], now[2], now[3]);
                 wrong = wrong + 1;
             end
             clocks = clocks + 1;
@@ -218,6 +220,7 @@ module loop_bench;
             "tick": begin tick_ms = 1; tick; tick_ms = 0; end
             "drives_clear": begin drives_clear = 1; tick; drives_clear = 0; end
             "clear": begin clear = 1; tick; clear = 0; end
+            "clear_and_strobe": begin clear = 1; strobe = 1; tick; clear = 0; strobe = 0; end
             "clocks": period = value;
             default: begin
                 $display("unknown word %0s", name);
@@ -277,7 +280,7 @@ module loop_bench;
         next_pins = -1;
         if (pins != 0) begin
             skip_line(pins);
-            found = $fscanf(pins, "%d,%d,%d,%d\n", next_pins, then[0], then[1], then[2]);
+            found = $fscanf(pins, "%d,%d,%d,%d,%d\n", next_pins, then[0], then[1], then[2], then[3]);
         end
         repeat (4) tick;
         reset = 0;

@@ -66,10 +66,12 @@ class Loop:
         wanted = self.expected[number]
         assert got == wanted, f"drive word {number}: got {got}, expected {wanted} ({', '.join(DRIVE)})"
 
-    async def pulse(self, pin):
-        getattr(self.dut, pin).value = 1
+    async def pulse(self, *pins):
+        for pin in pins:
+            getattr(self.dut, pin).value = 1
         await self.tick()
-        getattr(self.dut, pin).value = 0
+        for pin in pins:
+            getattr(self.dut, pin).value = 0
 
     async def write(self, name, address, code):
         if name in TABLES:
@@ -78,6 +80,8 @@ class Loop:
             await self.pulse(write)
         elif name in PULSES:
             await self.pulse(name)
+        elif name == "clear_and_strobe":
+            await self.pulse("clear", "strobe")
         elif name == "clocks":
             self.clocks = code
         else:

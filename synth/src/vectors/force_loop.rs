@@ -3,6 +3,7 @@
 //!
 //! Split pads on a sheet, each with a carrier of 21 periods per window. The drives rise to a target within the slew, a slot is
 //! abandoned with `clear` a clock after its strobe, the drives begin anew, are cleared, reach their target at once, and are switched off.
+//! Then `clear` comes a clock after a strobe, beside one, and beside the place of a frame, before a pad whose only force is its wall's.
 //!
 //! | file | holds |
 //! | --- | --- |
@@ -11,11 +12,12 @@
 //! | loop_samples.csv | a row a strobe |
 //! | loop_drives.csv | a row a drive word, its limits and faults behind it |
 //! | loop_frames.csv | a row a word of a frame, flags behind it |
-//! | loop_pins.csv | which pad is closed and whether strobes came too early, a row for each clock after reset at which it is new |
+//! | loop_pins.csv | which pad is closed, the carrier, and whether strobes came too early, a row for each clock after reset at which one is new |
 
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
 
+use hapticore_contract::calibration::{Calibration, ForceTable};
 use hapticore_contract::control::Tuning;
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::block::{Block, State};
@@ -38,6 +40,16 @@ const PAD: [f64; 7] = [0.11, 0.09, 0.12, 0.1, 0.08, 0.13, 0.5];
 /// The haptic voltage, full scale: the force is below the targets.
 const HAPTIC: f64 = 0.08;
 
+/// The word of a frame that is the pad's place along x.
+const PLACE_INDEX: i64 = 2;
+
+/// A surface that the pad is within, mm.
+const INSIDE_MM: f64 = 200.0;
+
+/// Forces depend on the voltage that a pad has had.
+const FORCE: ForceTable =
+    ForceTable { rows: [[1.0, 2.0, 1.0]; ForceTable::ROWS], recent: 0.25, mean: 0.02, release: 0.001 };
+
 /// Largest error of an amplitude in the pads' parts, full scale: their places differ.
 const SPREAD: f64 = 0.02;
 
@@ -53,7 +65,7 @@ struct Bench {
     drives: String,
     frames: String,
     clocks: i64,
-    pins: [i64; 3],
+    pins: [i64; 4],
     changes: String,
 }
 
@@ -66,6 +78,17 @@ fn outputs_of<const N: usize>(outputs: Outputs<i64>, names: [&str; N]) -> [i64; 
         }
     });
     found
+}
+
+fn step(
+    block: &ForceLoop,
+    state: &mut State<ForceLoop, i64>,
+    inputs: Inputs<i64>,
+) -> Outputs<i64> {
+    let signals = Inputs::map(Inputs::zip(inputs, block.inputs()), |(value, format)| {
+        Signal { value, format }
+    });
+    Outputs::map(block.step(state, signals), |signal| signal.value)
 }
 
 impl Bench {
@@ -83,20 +106,26 @@ impl Bench {
             drives: text("pad,drive,low,high,silence,sensor,force\n"),
             frames: format!("pad,index,word,{flags}\n"),
             clocks: 0,
-            pins: [-1; 3],
-            changes: text("clock,serve,closed,overrun\n"),
+            pins: [-1; 4],
+            changes: text("clock,serve,closed,carrier,overrun\n"),
         }
     }
 
+    /// Clocks from a strobe to the one whose outputs are as asked, without running any.
+    fn clocks_until(&self, found: impl Fn(Outputs<i64>) -> bool) -> u64 {
+        let mut state = self.state.clone();
+        let strobe = |clock: u64| self.with(&[("strobe", i64::from(clock == 0))]);
+        let mut clocks = 0..self.block.core.latency();
+        clocks
+            .find(|&clock| found(step(&self.block, &mut state, strobe(clock))))
+            .expect("such outputs")
+    }
+
     fn clock(&mut self, inputs: Inputs<i64>) {
-        let signals = Inputs::map(Inputs::zip(inputs, self.block.inputs()), |(value, format)| {
-            Signal { value, format }
-        });
-        let outputs =
-            Outputs::map(self.block.step(&mut self.state, signals), |signal| signal.value);
+        let outputs = step(&self.block, &mut self.state, inputs);
         let [asked, valid, driven] = outputs_of(outputs, ["channel", "valid", "drive_valid"]);
         self.asked = asked as usize;
-        let pins = outputs_of(outputs, ["serve", "closed", "overrun"]);
+        let pins = outputs_of(outputs, ["serve", "closed", "carrier", "overrun"]);
         if pins != self.pins {
             self.pins = pins;
             line(&mut self.changes, &[&[self.clocks], &pins[..]].concat());
@@ -135,6 +164,7 @@ impl Bench {
         match name {
             "clocks" => (),
             "clear" | "tick" | "drives_clear" => self.clock(self.with(&[(name, 1)])),
+            "clear_and_strobe" => self.clock(self.with(&[("clear", 1), ("strobe", 1)])),
             "position_table" => {
                 self.clock(self.with(&[("write", 1), ("address", at), ("word", code)]));
             }
@@ -172,7 +202,8 @@ fn code(profile: &Profile, word: DriveWord, value: f64) -> i64 {
 
 /// What is written before the first sample: calibration, tuning, walls.
 fn prepare(bench: &mut Bench, profile: &Profile) {
-    let words = CalibrationWords::new(profile, &sheet(profile, Set::Sheet));
+    let calibration = Calibration { force_table: FORCE, ..sheet(profile, Set::Sheet) };
+    let words = CalibrationWords::new(profile, &calibration);
     for word in words.constants {
         bench.write(word.constant.name(), None, word.code);
     }
@@ -242,6 +273,31 @@ fn slot(bench: &mut Bench, profile: &Profile, number: u64, cut: Option<u64>) {
     }
 }
 
+/// Clears a clock after a strobe, beside a strobe, and beside the last part's place; then the pad's wall, and a turn.
+fn clear_beside(bench: &mut Bench, profile: &Profile) {
+    let (parts, last) = (profile.pads, profile.pads as i64 - 1);
+    let open = vec![0; profile.channels()];
+    let until_next = profile.clocks_per_sample as i64;
+    bench.write("enable", None, 1);
+    bench.write("clocks", None, 1);
+    bench.sample(&open, 1);
+    bench.write("clear", None, 1);
+    bench.write("clocks", None, until_next);
+    bench.sample(&open, profile.clocks_per_sample);
+    bench.write("clear_and_strobe", None, 1);
+    let of_place = [1, PLACE_INDEX, last];
+    let clocks = bench
+        .clocks_until(|outputs| outputs_of(outputs, ["valid", "index", "pad"]) == of_place);
+    bench.write("clocks", None, clocks as i64);
+    bench.sample(&open, clocks);
+    bench.write("clear", None, 1);
+    bench.write("clocks", None, until_next);
+    let surface = code(profile, DriveWord::Surface { pad: last as u8, right: false }, INSIDE_MM);
+    bench.write("wall_surface", Some(last), surface);
+    (0..parts).for_each(|part| slot(bench, profile, part, None));
+    slot(bench, profile, 0, None);
+}
+
 /// All files of the force loop's vectors.
 pub fn files() -> Vec<File> {
     let profile = Profile::parse(PROFILE).expect("the profile of the committed loop");
@@ -266,6 +322,7 @@ pub fn files() -> Vec<File> {
     slot(&mut bench, &profile, 0, None);
     bench.write("enable", None, 0);
     (1..parts).for_each(|part| slot(&mut bench, &profile, part, None));
+    clear_beside(&mut bench, &profile);
     (0..bench.block.core.latency() + 100).for_each(|_| bench.clock(bench.constants));
     let [codes, events] = bench.written;
     let file = |name: &str, text: String| File { name: format!("loop_{name}.csv"), text };
