@@ -4,6 +4,7 @@
 
 use std::ffi::OsStr;
 use std::path::Path;
+use std::time::Duration;
 
 use clap::{Arg, ArgAction, Command, CommandFactory};
 use hapticore::args::Args;
@@ -15,6 +16,9 @@ const LINES: usize = 300;
 
 /// Lines that are made before they are run together.
 const AT_A_TIME: usize = 64;
+
+/// Lines that take so long are printed.
+const SLOW: Duration = Duration::from_secs(5);
 
 /// The command's file.
 fn program() -> &'static Path {
@@ -42,6 +46,9 @@ fn no_command_line_panics_hangs_or_leaves_half_a_file() {
         for (line, ended) in made.iter().zip(&ended) {
             if tally.count(line) {
                 tally.ended(ended);
+            }
+            if ended.took >= SLOW {
+                println!("{line:?}\n    took {} s", ended.took.as_secs());
             }
             for finding in &ended.findings {
                 println!("{line:?}\n    {finding}");
