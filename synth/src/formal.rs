@@ -5,6 +5,7 @@
 //! The checker sees the module's registers by the names that the model gives them, and the widths
 //! as parameters.
 
+use crate::certificates::Subject;
 use crate::tools::{Tools, root};
 use anyhow::{Context, Result, bail};
 use hapticore_hdl::interpretations::netlist::{Module, Netlist, Node, Op};
@@ -88,12 +89,25 @@ impl Claim<'_> {
             },
         );
         let defines: String = self.defines.iter().map(|name| format!("-D{name} ")).collect();
-        hapticore_files::write(&folder.join("claim.sv"), &self.text()?)?;
+        let text = self.text()?;
         let script = format!(
             "[options]\nmode {mode}\ndepth {depth}\nvcd off\n[engines]\nsmtbmc z3\n[script]\nread -formal {defines}claim.sv\n\
              prep -top {module}\n[files]\nclaim.sv\n"
         );
-        hapticore_files::write(&folder.join("claim.sby"), &script)?;
+        let subject = Subject::new().and(&text).and(&script);
+        let who = format!("formal: {} in {module}, {mode} {depth}", self.checker);
+        let ask = || Ok(format!("{:?}", self.ask(tools, &text, &script, folder)?));
+        match subject.try_verdict::<anyhow::Error>(&who, ask)?.as_str() {
+            "Holds" => Ok(Verdict::Holds),
+            "Broken" => Ok(Verdict::Broken),
+            "Unknown" => Ok(Verdict::Unknown),
+            other => bail!("{other} is no verdict"),
+        }
+    }
+
+    fn ask(&self, tools: &Tools, text: &str, script: &str, folder: &Path) -> Result<Verdict> {
+        hapticore_files::write(&folder.join("claim.sv"), text)?;
+        hapticore_files::write(&folder.join("claim.sby"), script)?;
         let output = tools.command("sby").args(["-f", "claim.sby"]).current_dir(folder).output()?;
         let log = String::from_utf8_lossy(&output.stdout);
         match output.status.code() {
@@ -117,6 +131,26 @@ impl Claim<'_> {
 /// # Errors
 /// The tools do not run, or do not understand a module.
 pub fn broken(tools: &Tools, claims: &[Claim], clocks: u64, folder: &Path) -> Result<Vec<bool>> {
+    let mut subject = Subject::new().and(clocks.to_string());
+    for claim in claims {
+        subject = subject.and(claim.text()?).and(claim.defines.join(" "));
+    }
+    let checker = claims.first().map_or("nothing", |claim| claim.checker);
+    let ask = || {
+        let broken = ask_for_broken(tools, claims, clocks, folder)?;
+        Ok(broken.into_iter().map(|broken| if broken { 'B' } else { '-' }).collect())
+    };
+    let who = format!("formal: mutants of {checker}, B where broken");
+    let verdict = subject.try_verdict::<anyhow::Error>(&who, ask)?;
+    Ok(verdict.chars().map(|broken| broken == 'B').collect())
+}
+
+fn ask_for_broken(
+    tools: &Tools,
+    claims: &[Claim],
+    clocks: u64,
+    folder: &Path,
+) -> Result<Vec<bool>> {
     let mut script = String::new();
     for (number, claim) in claims.iter().enumerate() {
         let module = top(claim.verilog).context("a module begins")?;

@@ -9,6 +9,7 @@
 //! | module | does |
 //! | --- | --- |
 //! | [`target`] | families, boards and what must hold on each |
+//! | [`certificates`] | verdicts of tools, known by what they were about |
 //! | [`tools`] | the tools that `synth/tools` fetched |
 //! | [`formal`] | proofs with SymbiYosys |
 //! | [`claims`] | `Assumed` narrowings and invariants of a block, decided by a solver |
@@ -25,6 +26,7 @@
 //! proofs.
 
 pub mod cells;
+pub mod certificates;
 pub mod claims;
 pub mod flow;
 pub mod formal;

@@ -32,6 +32,7 @@ use hapticore_run::engine::Fidelity;
 use hapticore_run::engine::{Slot, engine};
 use hapticore_run::inputs;
 use hapticore_run::maker::Maker;
+use hapticore_synth::certificates::Subject;
 use hapticore_tests::tools;
 use random::Random;
 use std::fs;
@@ -149,11 +150,14 @@ fn bench(
     let mask = (1u32 << width) - 1;
     let drive = profile.control.as_ref().map(|_| DRIVE.into());
     let printed = target.printed(profile, drive).expect("the board serves the profile");
-    fs::write(folder.join("top.v"), printed.verilog).expect("a file");
-    fs::write(folder.join("bytes.hex"), hex(commands.iter().map(|&byte| byte.into())))
-        .expect("a file");
-    fs::write(folder.join("codes.hex"), hex(samples.iter().map(|&code| code as u32 & mask)))
-        .expect("a file");
+    let files = [
+        ("top.v", printed.verilog),
+        ("bytes.hex", hex(commands.iter().map(|&byte| byte.into()))),
+        ("codes.hex", hex(samples.iter().map(|&code| code as u32 & mask))),
+    ];
+    for (name, text) in &files {
+        fs::write(folder.join(name), text).expect("a file");
+    }
     let parameters = [
         ("BITS", width.to_string()),
         ("SAMPLES", (samples.len() / profile.channels()).to_string()),
@@ -162,10 +166,31 @@ fn bench(
         ("PERIOD", format!("{:.3}", 1e9 / clock_hz as f64)),
         ("ACTIVE_LOW", u8::from(target == Target::Icebreaker).to_string()),
     ];
-    let log = simulator.run(drive.is_some(), &parameters, folder);
-    let heard =
-        fs::read_to_string(folder.join("heard.hex")).expect("the bench wrote what it heard");
-    (log, heard.lines().map(|line| u8::from_str_radix(line, 16).expect("a known byte")).collect())
+    let bench = ["rtl/verilog/sim", "tests/tests/board.rs"];
+    let how = format!("{simulator:?} {parameters:?} {}", drive.is_some());
+    let subject =
+        files.iter().fold(Subject::new().and(how), |subject, (_, text)| subject.and(text));
+    let verdict = subject.and_files(&bench).verdict(&format!("board: {target:?}"), || {
+        let log = simulator.run(drive.is_some(), &parameters, folder);
+        let outputs = OUTPUTS.map(|name| fs::read_to_string(folder.join(name)).unwrap_or_default());
+        let [heard, converter] = outputs;
+        [log, heard, converter].map(|text| text.replace('\n', " ; ")).join(" | ")
+    });
+    let [log, outputs @ ..] = lines(&verdict);
+    for (name, text) in OUTPUTS.iter().zip(&outputs) {
+        fs::write(folder.join(name), text).expect("a file");
+    }
+    let heard = outputs[0].lines();
+    (log, heard.map(|line| u8::from_str_radix(line, 16).expect("a known byte")).collect())
+}
+
+/// What the bench writes: the bytes that the host heard, and the words that the converter did.
+const OUTPUTS: [&str; 2] = ["heard.hex", "dac.hex"];
+
+/// The texts of a verdict, its output and [`OUTPUTS`], in lines again.
+fn lines(verdict: &str) -> [String; 3] {
+    let texts: Vec<_> = verdict.split(" | ").map(|text| text.replace(" ; ", "\n")).collect();
+    texts.try_into().expect("three texts")
 }
 
 #[test]

@@ -9,6 +9,7 @@
 use std::collections::BTreeSet;
 
 use hapticore_rtl::board::Target;
+use hapticore_synth::certificates::Subject;
 use hapticore_tests::faults::Planted;
 use hapticore_tests::faults::campaign::{self, two_at_a_time};
 use hapticore_tests::lockstep::verilator::{Start, Verilated};
@@ -25,19 +26,27 @@ fn none(target: Target) -> &'static str {
 /// Which faults of a block nobody notices, and how many there are.
 fn survivors(target: Target, Alone { design, trace }: &Alone) -> (Vec<String>, usize) {
     let planted = Planted::new(design);
-    let compiled =
-        Verilated::new("alone", &design.ports, &planted.alone(design.top()), Start::Zero);
-    let given = compiled.with_trace(trace.clone());
-    assert_eq!(given.check(0), Ok(()), "{target:?}, {}", design.top());
     // Those of a block within are tried with that block.
     let own = (1..).zip(&planted.faults).filter(|(_, fault)| fault.module == design.top());
-    let (mut missed, mut tried) = (Vec::new(), 0);
-    for (number, fault) in own {
-        tried += 1;
-        missed.extend(given.check(number).is_ok().then(|| fault.to_string()));
-    }
+    let own: Vec<(usize, _)> = own.collect();
+    let subject = Subject::new()
+        .and(&planted.verilog)
+        .and(trace.bytes())
+        .and(include_str!("board_faults.rs"));
+    let missed = campaign::missed(design.top(), subject, || {
+        let verilog = planted.alone(design.top());
+        let compiled = Verilated::new("alone", &design.ports, &verilog, Start::Zero);
+        let given = compiled.with_trace(trace.clone());
+        assert_eq!(given.check(0), Ok(()), "{target:?}, {}", design.top());
+        own.iter()
+            .map(|(number, _)| *number)
+            .filter(|number| given.check(*number).is_ok())
+            .collect()
+    });
+    let tried = own.len();
     println!("{target:?}, {}: {} of {tried} faults noticed", design.top(), tried - missed.len());
-    (missed, tried)
+    let survivors = own.iter().filter(|(number, _)| missed.contains(number));
+    (survivors.map(|(_, fault)| fault.to_string()).collect(), tried)
 }
 
 #[test]

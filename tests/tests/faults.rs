@@ -26,6 +26,7 @@ use hapticore_model::blocks::pace::Pace;
 use hapticore_model::blocks::position::Position;
 use hapticore_model::blocks::ratio::Ratio;
 use hapticore_rtl::header;
+use hapticore_synth::certificates::Subject;
 use hapticore_tests::faults::campaign::{self, two_at_a_time};
 use hapticore_tests::faults::{Fault, Kind, Planted};
 use hapticore_tests::lockstep::verilator::{CompiledTrace, Start, Verilated};
@@ -122,6 +123,40 @@ fn first_mismatch<'a>(
     traces.find_map(|trace| trace.check(number).err())
 }
 
+/// The numbers of the faults of a sample that no trace notices: of blocks alone, the last the core, and more of that.
+fn missed(
+    design: &Design,
+    planted: &Planted,
+    (alone, more): (Vec<Alone>, Vec<Alone>),
+    sample: &[(usize, &Fault)],
+) -> Vec<usize> {
+    let compiled = two_at_a_time(&alone, |(name, trace)| {
+        Verilated::new("alone", &trace.ports, &planted.alone(name), Start::Zero)
+    });
+    let core = compiled.last().expect("the core");
+    let mut traces: Vec<_> = alone
+        .into_iter()
+        .zip(&compiled)
+        .map(|((name, trace), compiled)| (name, compiled.with_trace(trace)))
+        .collect();
+    traces.extend(more.into_iter().map(|(name, trace)| (name, core.with_trace(trace))));
+    assert_eq!(first_mismatch(traces.iter().map(|(_, trace)| trace), 0), None, "without a fault");
+    let found = two_at_a_time(sample, |&(number, fault)| {
+        let with = traces.iter().filter(|(top, _)| within(design, &fault.module, top));
+        first_mismatch(with.map(|(_, trace)| trace), number)
+    });
+    for ((_, fault), mismatch) in sample.iter().zip(&found) {
+        if let Some(mismatch) = mismatch {
+            println!("noticed: {fault}\n    {mismatch}");
+        }
+    }
+    let numbers = sample.iter().map(|(number, _)| *number);
+    numbers
+        .zip(found)
+        .filter_map(|(number, mismatch)| mismatch.is_none().then_some(number))
+        .collect()
+}
+
 #[test]
 #[cfg_attr(
     not(all(tool = "verilator", tool = "make", tool = "g++")),
@@ -135,42 +170,32 @@ fn faults_of_each_kind_in_each_module_are_noticed() {
     };
     let mut alone = blocks(&bench.profile);
     alone.push(of_core(1));
-    let compiled = two_at_a_time(&alone, |(name, trace)| {
-        Verilated::new("alone", &trace.ports, &planted.alone(name), Start::Zero)
-    });
-    let core = compiled.last().expect("the core");
-    let mut traces: Vec<_> = alone
-        .into_iter()
-        .zip(&compiled)
-        .map(|((name, trace), compiled)| (name, compiled.with_trace(trace)))
-        .collect();
     // Positions that are found: of random codes there are few, and frames hold what was valid last.
     let valid =
         (bench.design.top().to_owned(), bench.record(stimulus::scene(&bench.profile, "hockey", 8)));
-    let more = [2, 3, 4].map(of_core).into_iter().chain([valid]);
-    traces.extend(more.map(|(name, trace)| (name, core.with_trace(trace))));
-    assert_eq!(first_mismatch(traces.iter().map(|(_, trace)| trace), 0), None, "without a fault");
-
+    let more: Vec<Alone> = [2, 3, 4].map(of_core).into_iter().chain([valid]).collect();
     let all = campaign::all();
     let sample = sample(&planted, all);
     let none = campaign::equivalent(NONE);
-    let found = two_at_a_time(&sample, |&(number, fault)| {
-        let with = traces.iter().filter(|(top, _)| within(&bench.design, &fault.module, top));
-        first_mismatch(with.map(|(_, trace)| trace), number)
+    let numbers: Vec<_> = sample.iter().map(|(number, _)| number.to_string()).collect();
+    let subject = Subject::new().and(&planted.verilog).and(numbers.join(" "));
+    let subject = alone
+        .iter()
+        .chain(&more)
+        .fold(subject.and(include_str!("faults.rs")), |subject, (name, trace)| {
+            subject.and(name).and(trace.bytes())
+        });
+    let missed = campaign::missed("the core", subject, || {
+        missed(&bench.design, &planted, (alone, more), &sample)
     });
-    let (mut noticed, mut passed_by) = (0, BTreeSet::new());
-    for ((_, fault), mismatch) in sample.iter().zip(&found) {
-        match mismatch {
-            Some(mismatch) => println!("noticed: {fault}\n    {mismatch}"),
-            None => drop(passed_by.insert(fault.to_string())),
-        }
-        noticed += usize::from(mismatch.is_some());
-    }
+    let of_sample = |number: &usize| &planted.faults[number - 1];
+    let passed_by: BTreeSet<String> = missed.iter().map(|n| of_sample(n).to_string()).collect();
     let passed_by: BTreeSet<&str> = passed_by.iter().map(String::as_str).collect();
     println!(
-        "{noticed} faults noticed, {} not, of {} tried and {} places",
-        found.len() - noticed,
-        found.len(),
+        "{} faults noticed, {} not, of {} tried and {} places",
+        sample.len() - missed.len(),
+        missed.len(),
+        sample.len(),
         planted.faults.len()
     );
     println!(

@@ -14,29 +14,38 @@ use hapticore_hdl::verilog::Design;
 use hapticore_synth::tools::{Tools, root};
 use hapticore_tests::force_loop::Closed;
 use hapticore_tests::lockstep::Bench;
-use hapticore_tests::lockstep::verilator::{Start, Verilated};
+use hapticore_tests::lockstep::verilator::Verilated;
 use hapticore_tests::{stimulus, tools};
 
 /// Clocks of each core at least.
 const CLOCKS: usize = 100_000;
 
-/// The gates of a design, with what their cells do, as Verilog.
-fn gates(tools: &Tools, family: &str, design: &Design) -> String {
-    let folder = tempfile::tempdir().expect("a folder");
-    fs::write(folder.path().join("design.v"), design.text()).expect("written");
-    let script = root().join("synth/netlist");
-    let mut command = tools.command(script.to_str().expect("a path"));
-    command.args([family, "design.v", "gates.v"]).env("TOP", design.top());
-    tools::run(&mut command, folder.path());
-    fs::read_to_string(folder.path().join("gates.v")).expect("the gates")
+/// What makes gates of Verilog.
+const MAKERS: [&str; 2] = ["synth/netlist", "synth/cells/ecp5.v"];
+
+/// The gates of a design, with what their cells do.
+fn gates(family: &str, design: &Design) -> Verilated {
+    let tools = Tools::find().expect("what synth/tools fetches");
+    let (family, top) = (family.to_owned(), design.top().to_owned());
+    let makers = MAKERS.map(|name| fs::read_to_string(root().join(name)).expect("a file"));
+    let comment = |line: &str| format!("// {line}\n");
+    let made_by: String = makers.iter().flat_map(|text| text.lines()).map(comment).collect();
+    let source = format!("// {family}\n{made_by}{}", design.text());
+    let gate = format!("{top}_gate");
+    Verilated::made(&gate, &design.ports, &source, move |source| {
+        let folder = tempfile::tempdir().expect("a folder");
+        fs::write(folder.path().join("design.v"), source).expect("written");
+        let script = root().join("synth/netlist");
+        let mut command = tools.command(script.to_str().expect("a path"));
+        command.args([&family, "design.v", "gates.v"]).env("TOP", &top);
+        tools::run(&mut command, folder.path());
+        fs::read_to_string(folder.path().join("gates.v")).expect("the gates")
+    })
 }
 
 fn gates_run_what_the_model_runs(family: &str, profile: &str) {
-    let tools = Tools::find().expect("what synth/tools fetches");
     let bench = Bench::new(profile);
-    let top = format!("{}_gate", bench.design.top());
-    let text = gates(&tools, family, &bench.design);
-    let verilated = Verilated::new(&top, &bench.design.ports, &text, Start::Anything);
+    let verilated = gates(family, &bench.design);
     let mut clocks = 0;
     for stimulus in [
         stimulus::scene(&bench.profile, "fig6", 3),
@@ -59,11 +68,8 @@ fn gates_close_the_loop_as_the_model_does(
     profile: &str,
     of: impl FnOnce(&Profile) -> Closed,
 ) {
-    let tools = Tools::find().expect("what synth/tools fetches");
     let (design, trace) = of(&Profile::bundled(profile).expect("bundled")).record();
-    let top = format!("{}_gate", design.top());
-    let text = gates(&tools, family, &design);
-    let verilated = Verilated::new(&top, &design.ports, &text, Start::Anything);
+    let verilated = gates(family, &design);
     if let Err(mismatch) = verilated.check(&trace) {
         panic!("{family}, {profile}: {mismatch}");
     }

@@ -12,6 +12,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
+use hapticore_synth::certificates::Subject;
 use hapticore_tests::faults::campaign::{self, two_at_a_time};
 use hapticore_tests::faults::{Fault, Planted};
 use hapticore_tests::lockstep::Bench;
@@ -100,6 +101,23 @@ fn passes(bench: &Path, fault: usize) -> bool {
     String::from_utf8_lossy(&output.stdout).contains("PASSED")
 }
 
+/// The numbers of faults in a design with which the bench passes.
+fn missed(users: &Users, design: &str, numbers: &[usize]) -> Vec<usize> {
+    let words: Vec<_> = numbers.iter().map(usize::to_string).collect();
+    let files = ["rtl/verilog/vectors", "rtl/verilog/cocotb", "tests/tests/vectors.rs"];
+    let subject = Subject::new().and(design).and(words.join(" ")).and_files(&files);
+    campaign::missed(&format!("the vectors of {}", users.folder), subject, || {
+        let bench = compiled(users, design);
+        assert!(passes(bench.path(), 0), "without a fault");
+        let passed = two_at_a_time(numbers, |&number| passes(bench.path(), number));
+        numbers
+            .iter()
+            .zip(passed)
+            .filter_map(|(number, passed)| passed.then_some(*number))
+            .collect()
+    })
+}
+
 #[test]
 #[cfg_attr(
     not(all(tool = "verilator", tool = "make", tool = "g++")),
@@ -114,12 +132,8 @@ fn faults_in_the_printed_text_are_noticed_by_the_vectors() {
         chosen.into_iter().step_by(if campaign::all() { 1 } else { EACH }).collect();
 
     let planted = Planted::with(&design, &|number| tried.contains(&number));
-    let bench = compiled(&SMALL, &planted.verilog);
-    assert!(passes(bench.path(), 0), "without a fault");
-    let passed = two_at_a_time(&tried, |&number| passes(bench.path(), number));
-    let survivors = tried.iter().zip(&passed).filter(|(_, passed)| **passed);
-    let survivors: BTreeSet<_> =
-        survivors.map(|(&number, _)| faults[number - 1].to_string()).collect();
+    let missed = missed(&SMALL, &planted.verilog, &tried);
+    let survivors: BTreeSet<_> = missed.iter().map(|n| faults[n - 1].to_string()).collect();
     let survivors: BTreeSet<&str> = survivors.iter().map(String::as_str).collect();
     println!(
         "{} of {} faults noticed, of {} places",
@@ -212,12 +226,9 @@ const OPEN: [&str; 1] = ["hapticore_loop_split_pad: wire bit_981e = driven & not
 /// A clear that does not reach a register keeps what was there: the next pad, a count, a window.
 fn check_clears(users: &Users) {
     let (text, faults) = without_clear(users);
-    let bench = compiled(users, &text);
-    assert!(passes(bench.path(), 0), "without a fault");
     let numbers: Vec<usize> = (1..=faults.len()).collect();
-    let passed = two_at_a_time(&numbers, |&number| passes(bench.path(), number));
     let missed: Vec<_> =
-        faults.iter().zip(passed).filter_map(|(fault, passed)| passed.then_some(fault)).collect();
+        missed(users, &text, &numbers).into_iter().map(|number| &faults[number - 1]).collect();
     let is_equivalent = |fault: &&&String| EQUIVALENT.iter().any(|none| fault.ends_with(none));
     let missed: BTreeSet<&str> =
         missed.iter().filter(|fault| !is_equivalent(fault)).map(|fault| fault.as_str()).collect();

@@ -47,8 +47,12 @@ const PLACE_INDEX: i64 = 2;
 const INSIDE_MM: f64 = 200.0;
 
 /// Forces depend on the voltage that a pad has had.
-const FORCE: ForceTable =
-    ForceTable { rows: [[1.0, 2.0, 1.0]; ForceTable::ROWS], recent: 0.25, mean: 0.02, release: 0.001 };
+const FORCE: ForceTable = ForceTable {
+    rows: [[1.0, 2.0, 1.0]; ForceTable::ROWS],
+    recent: 0.25,
+    mean: 0.02,
+    release: 0.001,
+};
 
 /// Largest error of an amplitude in the pads' parts, full scale: their places differ.
 const SPREAD: f64 = 0.02;
@@ -80,13 +84,10 @@ fn outputs_of<const N: usize>(outputs: Outputs<i64>, names: [&str; N]) -> [i64; 
     found
 }
 
-fn step(
-    block: &ForceLoop,
-    state: &mut State<ForceLoop, i64>,
-    inputs: Inputs<i64>,
-) -> Outputs<i64> {
-    let signals = Inputs::map(Inputs::zip(inputs, block.inputs()), |(value, format)| {
-        Signal { value, format }
+fn step(block: &ForceLoop, state: &mut State<ForceLoop, i64>, inputs: Inputs<i64>) -> Outputs<i64> {
+    let signals = Inputs::map(Inputs::zip(inputs, block.inputs()), |(value, format)| Signal {
+        value,
+        format,
     });
     Outputs::map(block.step(state, signals), |signal| signal.value)
 }
@@ -286,8 +287,8 @@ fn clear_beside(bench: &mut Bench, profile: &Profile) {
     bench.sample(&open, profile.clocks_per_sample);
     bench.write("clear_and_strobe", None, 1);
     let of_place = [1, PLACE_INDEX, last];
-    let clocks = bench
-        .clocks_until(|outputs| outputs_of(outputs, ["valid", "index", "pad"]) == of_place);
+    let clocks =
+        bench.clocks_until(|outputs| outputs_of(outputs, ["valid", "index", "pad"]) == of_place);
     bench.write("clocks", None, clocks as i64);
     bench.sample(&open, clocks);
     bench.write("clear", None, 1);

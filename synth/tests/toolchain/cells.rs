@@ -2,6 +2,7 @@
 //! The models of cells that netlists are simulated with: a design with every shape of memory and
 //! product, beside its gates.
 
+use hapticore_synth::certificates::Subject;
 use hapticore_synth::tools::{Tools, root};
 use std::fmt::Write as _;
 use std::fs;
@@ -85,6 +86,14 @@ fn simulate(tools: &Tools, folder: &Path, wrong: bool) -> String {
 }
 
 fn check(family: &str) {
+    let files = ["synth/netlist", "synth/cells", "synth/tests/toolchain/cells.rs"];
+    Subject::new()
+        .and(family)
+        .and_files(&files)
+        .holds(&format!("cells: {family}"), || gates_are_their_verilog(family));
+}
+
+fn gates_are_their_verilog(family: &str) {
     let tools = Tools::find().expect("what synth/tools fetches");
     let folder = tempfile::tempdir().expect("a folder");
     fs::write(folder.path().join("design.v"), design()).expect("a file");

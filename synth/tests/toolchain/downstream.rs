@@ -2,6 +2,7 @@
 //! What users of the Verilog find in `rtl/verilog/` works: the Makefile, the cocotb test and the
 //! FuseSoC core.
 
+use hapticore_synth::certificates::Subject;
 use hapticore_synth::tools::{Tools, root};
 use std::fs;
 use std::path::Path;
@@ -16,6 +17,12 @@ fn copy(from: &Path, to: &Path) {
             false => drop(fs::copy(entry.path(), target).expect("a file")),
         }
     }
+}
+
+/// Runs what depends on nothing but the users' files and how this test runs them.
+fn once(what: &str, check: fn()) {
+    let files = ["rtl/verilog", "synth/tests/toolchain/downstream.rs"];
+    Subject::new().and(what).and_files(&files).holds(&format!("downstream: {what}"), check);
 }
 
 fn users_copy() -> tempfile::TempDir {
@@ -49,6 +56,10 @@ fn falsify(folder: &Path, (name, column): (&str, usize)) {
 #[test]
 #[cfg_attr(not(tool = "synth/tools"), ignore = "needs synth/tools: ./test fetches what is missing")]
 fn the_makefile_lints_and_simulates() {
+    once("make", make_lints_and_simulates);
+}
+
+fn make_lints_and_simulates() {
     let tools = Tools::find().expect("what synth/tools fetches");
     let folder = users_copy();
     for profile in ["PROFILE=small", "PROFILE=standard", "PROFILE=loop"] {
@@ -68,6 +79,10 @@ fn the_makefile_lints_and_simulates() {
 #[test]
 #[cfg_attr(not(tool = "synth/tools"), ignore = "needs synth/tools: ./test fetches what is missing")]
 fn cocotb_sees_the_frame_of_the_model() {
+    once("cocotb", cocotb_compares);
+}
+
+fn cocotb_compares() {
     let tools = Tools::find().expect("what synth/tools fetches");
     let folder = users_copy();
     let log = tools.run("make", &["test", &python()], folder.path()).unwrap();
@@ -82,6 +97,10 @@ fn cocotb_sees_the_frame_of_the_model() {
 #[test]
 #[cfg_attr(not(tool = "synth/tools"), ignore = "needs synth/tools: ./test fetches what is missing")]
 fn fusesoc_lints_and_simulates() {
+    once("fusesoc", fusesoc_runs);
+}
+
+fn fusesoc_runs() {
     let tools = Tools::find().expect("what synth/tools fetches");
     let folder = users_copy();
     let run = |target: &str, flags: &[&str]| {

@@ -18,6 +18,7 @@ use hapticore_hdl::interpretations::netlist::Netlist;
 use hapticore_model::blocks::core::Core;
 use hapticore_rtl::board::pads::Pads;
 use hapticore_rtl::netlist;
+use hapticore_synth::certificates::Subject;
 use hapticore_synth::formal::{print, top};
 use hapticore_synth::tools::Tools;
 use std::fs;
@@ -34,10 +35,7 @@ fn equivalent(
     after: &str,
 ) -> bool {
     let name = top(verilog).expect("a module");
-    let folder = tempfile::tempdir().expect("a folder");
-    fs::write(folder.path().join("design.v"), verilog).expect("a file");
-    fs::write(folder.path().join("synthesis.ys"), format!("{synthesis} -top {name}\n{after}\n"))
-        .expect("a file");
+    let synthesis = format!("{synthesis} -top {name}\n{after}\n");
     let prove =
         format!("equiv_opt -assert -async2sync -map +/{family}/cells_sim.v script synthesis.ys");
     // Wires without a name of their own are not compared.
@@ -46,12 +44,19 @@ fn equivalent(
         "read_verilog design.v; hierarchy -top {name}; proc; flatten; opt_clean; {registers}; {prove}"
     );
     // What Yosys says after its logic optimiser has run is only in its log.
-    let result = tools.run("yosys", &["-q", "-l", "log", "-p", &commands], folder.path());
-    let log = fs::read_to_string(folder.path().join("log")).expect("a log");
-    let unproven = log.contains("unproven $equiv cells in 'equiv_status -assert'");
-    let tail: Vec<_> = log.lines().rev().take(10).collect();
-    assert!(result.is_ok() || unproven, "{name}, {synthesis}: {tail:#?}");
-    result.is_ok()
+    let subject = Subject::new().and(verilog).and(&synthesis).and(&commands);
+    let ask = || {
+        let folder = tempfile::tempdir().expect("a folder");
+        fs::write(folder.path().join("design.v"), verilog).expect("a file");
+        fs::write(folder.path().join("synthesis.ys"), &synthesis).expect("a file");
+        let result = tools.run("yosys", &["-q", "-l", "log", "-p", &commands], folder.path());
+        let log = fs::read_to_string(folder.path().join("log")).expect("a log");
+        let unproven = log.contains("unproven $equiv cells in 'equiv_status -assert'");
+        let tail: Vec<_> = log.lines().rev().take(10).collect();
+        assert!(result.is_ok() || unproven, "{name}, {synthesis}: {tail:#?}");
+        if result.is_ok() { "equivalent" } else { "not proved" }.into()
+    };
+    subject.verdict(&format!("equivalence: {name} in {family}"), ask) == "equivalent"
 }
 
 fn block(name: &str) -> String {

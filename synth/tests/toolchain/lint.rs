@@ -10,6 +10,7 @@ use hapticore_hdl::verilog::{Design, File};
 use hapticore_rtl::board::Target;
 use hapticore_rtl::board::drive_output::{Converter, Wave};
 use hapticore_rtl::header;
+use hapticore_synth::certificates::Subject;
 use hapticore_synth::tools::{Tools, root};
 use std::fs;
 use std::path::Path;
@@ -184,9 +185,18 @@ fn yosys(tools: &Tools, designs: &[Printed], folder: &Path) -> Option<String> {
 #[test]
 #[cfg_attr(not(tool = "synth/tools"), ignore = "needs synth/tools: ./test fetches what is missing")]
 fn printed_designs_pass_all_linters() {
-    let tools = Tools::find().expect("what synth/tools fetches");
     let everything = std::env::var("LINT").is_ok_and(|value| value == "all");
     let designs = if everything { all() } else { covering() };
+    let files = designs.iter().flat_map(|design| &design.files);
+    let subject =
+        files.fold(Subject::new(), |subject, file| subject.and(&file.name).and(&file.text));
+    subject
+        .and_files(&["synth/tests/toolchain/lint.rs", "synth/scripts/slang.py"])
+        .holds(&format!("lint: {} designs", designs.len()), || all_pass(&designs));
+}
+
+fn all_pass(designs: &[Printed]) {
+    let tools = Tools::find().expect("what synth/tools fetches");
     let folder = tempfile::tempdir().expect("a folder");
     let folders = (0..designs.len()).map(|number| folder.path().join(number.to_string()));
     let folders: Vec<_> = folders.inspect(|path| fs::create_dir(path).expect("a folder")).collect();
@@ -205,7 +215,7 @@ fn printed_designs_pass_all_linters() {
         }
     });
     let mut found = found.into_inner().expect("all have ended");
-    found.extend(yosys(&tools, &designs, folder.path()));
+    found.extend(yosys(&tools, designs, folder.path()));
     assert!(
         found.is_empty(),
         "{} of {} designs:\n{}",

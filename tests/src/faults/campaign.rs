@@ -4,6 +4,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Mutex;
 
+use hapticore_synth::certificates::Subject;
+
 /// Whether every place is to be tried, not a sample: `FAULTS=all`.
 pub fn all() -> bool {
     std::env::var("FAULTS").is_ok_and(|which| which == "all")
@@ -13,6 +15,21 @@ pub fn all() -> bool {
 /// changes nothing.
 pub fn equivalent(list: &str) -> BTreeSet<&str> {
     list.lines().filter(|line| !line.is_empty() && !line.starts_with('#')).collect()
+}
+
+/// What decides whether a fault is noticed, besides the design and what it is given.
+const HARNESS: [&str; 2] = ["tests/src/faults", "tests/src/lockstep"];
+
+/// The numbers of the faults that nobody notices: those of the certificate about this, or what `ask` finds.
+///
+/// # Panics
+/// Where `ask` does.
+pub fn missed(who: &str, subject: Subject, ask: impl FnOnce() -> Vec<usize>) -> Vec<usize> {
+    let words = |numbers: Vec<usize>| numbers.iter().map(usize::to_string).collect::<Vec<_>>();
+    let verdict = subject
+        .and_files(&HARNESS)
+        .verdict(&format!("faults that survive in {who}"), || words(ask()).join(" "));
+    verdict.split_whitespace().map(|number| number.parse().expect("a number")).collect()
 }
 
 /// What two threads make of all of these, in any order.

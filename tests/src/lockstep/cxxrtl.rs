@@ -2,15 +2,17 @@
 //! Verilog in CXXRTL, the simulator of Yosys, with its assertions on: an address beyond the words of
 //! a memory ends the program, whether or not the word is used.
 
+use std::cell::OnceCell;
 use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use hapticore_hdl::verilog::{Direction, Port};
+use hapticore_synth::certificates::Subject;
 use tempfile::TempDir;
 
-use super::{Mismatch, Trace, program, verdict};
+use super::{Mismatch, Trace, program, result, verdict};
 use crate::tools::{find, run};
 
 /// The commands that it takes.
@@ -25,11 +27,16 @@ pub const COMMANDS: [&str; 2] = ["yosys", "g++"];
 /// Where a tool fails, and where an assertion does.
 pub fn check(top: &str, verilog: &str, traces: &[Trace]) -> Result<(), Mismatch> {
     let ports = &traces.first().expect("a trace").ports;
-    let folder = compile(top, &main(top, ports), verilog, &["-O1"]);
-    let at = |name: &str| folder.path().join(name);
+    let main = main(top, ports);
+    let program = OnceCell::new();
     for trace in traces {
-        fs::write(at("trace"), trace.bytes()).expect("written");
-        verdict(&run(Command::new(at("design")).arg("trace"), folder.path()), trace)?;
+        let subject = Subject::new().and("cxxrtl -O1").and(verilog).and(&main).and(trace.bytes());
+        let ask = || {
+            let folder = program.get_or_init(|| compile(top, &main, verilog, &["-O1"])).path();
+            fs::write(folder.join("trace"), trace.bytes()).expect("written");
+            verdict(&run(Command::new(folder.join("design")).arg("trace"), folder))
+        };
+        result(&subject.verdict(&format!("cxxrtl: {top}"), ask), trace)?;
     }
     Ok(())
 }

@@ -6,9 +6,10 @@ use std::fs;
 use std::process::Command;
 
 use hapticore_hdl::verilog::{Direction, Port};
+use hapticore_synth::certificates::Subject;
 
 use super::trace::bits;
-use super::{Mismatch, Trace, verdict};
+use super::{Mismatch, Trace, result, verdict};
 use crate::tools::run;
 
 /// Runs a design, given as Verilog text, on a trace.
@@ -19,16 +20,20 @@ use crate::tools::run;
 /// # Panics
 /// Where a tool fails.
 pub fn check(top: &str, verilog: &str, trace: &Trace) -> Result<(), Mismatch> {
-    let folder = tempfile::tempdir().expect("a folder");
-    let at = |name: &str| folder.path().join(name);
-    fs::write(at("design.v"), verilog).expect("written");
-    fs::write(at("bench.v"), bench(top, &trace.ports)).expect("written");
-    fs::write(at("trace.hex"), vectors(trace)).expect("written");
-    run(
-        Command::new("iverilog").args(["-g2005", "-o", "bench", "design.v", "bench.v"]),
-        folder.path(),
-    );
-    verdict(&run(Command::new("vvp").arg("bench"), folder.path()), trace)
+    let bench = bench(top, &trace.ports);
+    let subject = Subject::new().and("icarus").and(verilog).and(&bench).and(trace.bytes());
+    let ask = || {
+        let folder = tempfile::tempdir().expect("a folder");
+        let at = |name: &str| folder.path().join(name);
+        fs::write(at("design.v"), verilog).expect("written");
+        fs::write(at("bench.v"), &bench).expect("written");
+        fs::write(at("trace.hex"), vectors(trace)).expect("written");
+        let mut compile = Command::new("iverilog");
+        compile.args(["-g2005", "-o", "bench", "design.v", "bench.v"]);
+        run(&mut compile, folder.path());
+        verdict(&run(Command::new("vvp").arg("bench"), folder.path()))
+    };
+    result(&subject.verdict(&format!("icarus: {top}"), ask), trace)
 }
 
 /// A line of hexadecimal words for each clock.

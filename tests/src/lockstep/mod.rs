@@ -54,28 +54,25 @@ fn program(declared: &str, ports: usize, give: &str, compare: &str) -> String {
         .replace("@COMPARE@", compare)
 }
 
-/// Reads a simulator's verdict: a line `mismatch CLOCK SIGNAL MODEL VERILOG`, or `equal CLOCKS`.
-fn verdict(log: &str, trace: &Trace) -> Result<(), Mismatch> {
-    let words = |line: &str| line.split_whitespace().map(str::to_owned).collect::<Vec<_>>();
-    for line in log.lines().map(words) {
-        match line.iter().map(String::as_str).collect::<Vec<_>>()[..] {
-            ["mismatch", clock, signal, model, verilog] => {
-                let clock: usize = clock.parse().expect("a clock");
-                let [signal, model, verilog] = [signal, model, verilog].map(str::to_owned);
-                return Err(Mismatch {
-                    clock,
-                    signal,
-                    model,
-                    verilog,
-                    inputs: trace.inputs(clock),
-                });
-            }
-            ["equal", clocks] => {
-                assert_eq!(clocks.parse(), Ok(trace.clocks()), "the simulator ran all clocks");
-                return Ok(());
-            }
-            _ => (),
+/// A simulator's verdict: its line `mismatch CLOCK SIGNAL MODEL VERILOG`, or `equal CLOCKS`.
+fn verdict(log: &str) -> String {
+    let is_verdict = |line: &&str| line.starts_with("mismatch ") || line.starts_with("equal ");
+    let line = log.lines().find(is_verdict);
+    line.unwrap_or_else(|| panic!("the simulator gave no verdict: {log}")).to_owned()
+}
+
+/// Reads a verdict.
+fn result(verdict: &str, trace: &Trace) -> Result<(), Mismatch> {
+    match verdict.split_whitespace().collect::<Vec<_>>()[..] {
+        ["mismatch", clock, signal, model, verilog] => {
+            let clock: usize = clock.parse().expect("a clock");
+            let [signal, model, verilog] = [signal, model, verilog].map(str::to_owned);
+            Err(Mismatch { clock, signal, model, verilog, inputs: trace.inputs(clock) })
         }
+        ["equal", clocks] => {
+            assert_eq!(clocks.parse(), Ok(trace.clocks()), "the simulator ran all clocks");
+            Ok(())
+        }
+        _ => panic!("no verdict: {verdict}"),
     }
-    panic!("the simulator gave no verdict: {log}");
 }

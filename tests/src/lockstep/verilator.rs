@@ -7,10 +7,12 @@ use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::OnceLock;
 
 use hapticore_hdl::verilog::{Direction, Port};
+use hapticore_synth::certificates::Subject;
 
-use super::{Mismatch, Trace, program, verdict};
+use super::{Mismatch, Trace, program, result, verdict};
 use crate::tools::run;
 
 /// How the program is compiled.
@@ -140,25 +142,25 @@ impl Program {
     }
 }
 
-/// A compiled design that is compared with traces.
+/// A design that is compared with traces; compiled when a trace is run.
 pub struct Verilated {
-    program: Program,
+    version: Version,
+    top: String,
+    main: String,
+    /// The text, or what it is made from.
+    source: String,
+    make: Box<dyn Fn(&str) -> String + Send + Sync>,
+    program: OnceLock<Program>,
     start: Start,
 }
 
 impl Verilated {
-    /// Compiles a design given as Verilog text.
-    ///
-    /// # Panics
-    /// Where a tool fails.
+    /// A design given as Verilog text.
     pub fn new(top: &str, ports: &[Port], verilog: &str, start: Start) -> Verilated {
         Verilated::with(Version::Distribution, top, ports, verilog, start)
     }
 
-    /// Compiles a design given as Verilog text with one Verilator or the other.
-    ///
-    /// # Panics
-    /// Where a tool fails.
+    /// A design given as Verilog text, for one Verilator or the other.
     pub fn with(
         version: Version,
         top: &str,
@@ -166,21 +168,53 @@ impl Verilated {
         verilog: &str,
         start: Start,
     ) -> Verilated {
-        let program = Program::compile(version, top, &main(ports), verilog, Speed::Compile);
-        Verilated { program, start }
+        Verilated {
+            version,
+            top: top.to_owned(),
+            main: main(ports),
+            source: verilog.to_owned(),
+            make: Box::new(str::to_owned),
+            program: OnceLock::new(),
+            start,
+        }
+    }
+
+    /// A design whose text is made from another by nothing but that: gates of Verilog.
+    pub fn made(
+        top: &str,
+        ports: &[Port],
+        source: &str,
+        make: impl Fn(&str) -> String + Send + Sync + 'static,
+    ) -> Verilated {
+        let make = Box::new(make);
+        Verilated { make, ..Verilated::new(top, ports, source, Start::Anything) }
+    }
+
+    fn program(&self) -> &Program {
+        let Verilated { version, top, main, .. } = self;
+        let verilog = || (self.make)(&self.source);
+        self.program
+            .get_or_init(|| Program::compile(*version, top, main, &verilog(), Speed::Compile))
     }
 
     /// Runs a trace; the first mismatch, if there is one.
     ///
     /// # Errors
     /// An output that differs.
+    ///
+    /// # Panics
+    /// Where a tool fails.
     pub fn check(&self, trace: &Trace) -> Result<(), Mismatch> {
-        self.with_trace(trace.clone()).check(0)
+        let Verilated { version, top, main, source, start, .. } = self;
+        let how = format!("{version:?} {start:?} {top}");
+        let subject = Subject::new().and(how).and(main).and(source).and(trace.bytes());
+        let ask = || self.with_trace(trace.clone()).run(0);
+        result(&subject.verdict(&format!("verilator: {top}"), ask), trace)
     }
 
     /// A trace beside the program, to be run more than once.
     pub fn with_trace(&self, trace: Trace) -> CompiledTrace<'_> {
-        let file = tempfile::NamedTempFile::new_in(self.program.at("")).expect("a file");
+        let file = tempfile::NamedTempFile::new_in(self.program().at("")).expect("a file");
         fs::write(file.path(), trace.bytes()).expect("written");
         CompiledTrace { verilated: self, trace, file }
     }
@@ -199,13 +233,18 @@ impl CompiledTrace<'_> {
     /// # Errors
     /// An output that differs.
     pub fn check(&self, fault: usize) -> Result<(), Mismatch> {
-        let Verilated { program, start } = self.verilated;
-        let random = if *start == Start::Zero { 0 } else { 2 };
+        result(&self.run(fault), &self.trace)
+    }
+
+    /// The simulator's verdict.
+    fn run(&self, fault: usize) -> String {
+        let (program, start) = (self.verilated.program(), self.verilated.start);
+        let random = if start == Start::Zero { 0 } else { 2 };
         let mut command = Command::new(program.path());
         command
             .arg(self.file.path())
             .args(["+verilator+seed+1", &format!("+verilator+rand+reset+{random}")]);
-        verdict(&run(command.arg(format!("+fault={fault}")), &program.at("")), &self.trace)
+        verdict(&run(command.arg(format!("+fault={fault}")), &program.at("")))
     }
 }
 
