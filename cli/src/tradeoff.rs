@@ -6,7 +6,7 @@ use hapticore_contract::profile::Profile;
 use hapticore_run::record::Provenance;
 use hapticore_run::{inputs, interrupt};
 use hapticore_scene::{Scene, Timing};
-use hapticore_tradeoff::cost;
+use hapticore_tradeoff::cost::{self, Family};
 use hapticore_tradeoff::errors::{Error, Quantity};
 use hapticore_tradeoff::loops::{self, LoopErrors, case_of};
 use hapticore_tradeoff::model::{Model, NextBit};
@@ -79,7 +79,7 @@ pub fn run(args: &TradeoffArgs) -> Result<bool> {
         None if args.explain => vec![Model::new(trial.profile(), family, &points)],
         None => Vec::new(),
     };
-    let found = target.map(|target| search(&trial, &models, &target)).transpose()?;
+    let found = target.map(|target| search(&trial, &points, &models, &target)).transpose()?;
     let of = found.as_ref().map_or(trial.profile(), |found| &found.profile);
     let explained = models.iter().find(|model| args.explain && model.is_about(of));
     let next_bits = explained.map(|model| model.next_bits(of)).unwrap_or_default();
@@ -248,21 +248,21 @@ fn print(tradeoff: &Tradeoff) {
             if point.knob.is_empty() { tradeoff.profile.clone() } else { point.knob.clone() },
             if point.knob.is_empty() { String::new() } else { point.value.to_string() },
         ];
-        for (measured, predicted) in point.measured.iter().zip(&point.predicted) {
-            cells.extend([number(measured.rms), prediction(point, predicted.rms)]);
+        for (n, measured) in point.measured.iter().enumerate() {
+            cells.extend([number(measured.rms), prediction(point, n)]);
         }
         cells.extend(looped.iter().map(|(n, _)| loop_error(point, *n)));
         cells.push(number(point.cost.age_us));
         cells.push(format!("{:.0}", point.cost.luts));
-        cells.push(format!("{:.0}", point.cost.flip_flops));
+        cells.push(format!("{:.0}", point.cost.flip_flops_of(Family::Ecp5)));
         cells.push(format!("{:.0}", point.cost.block_rams));
         cells.push(front(point));
         cells
     };
     let rows: Vec<_> = tradeoff.points.iter().map(row).collect();
     console::print(format_args!("{}", table(&head, &rows)));
-    if tradeoff.points.iter().any(Point::has_few_codes) {
-        say!("{FEW_CODES}");
+    if tradeoff.points.iter().any(|point| point.is_of_one.contains(&true)) {
+        say!("{OF_ONE}");
     }
     if let Some(found) = &tradeoff.found {
         say!("\n{}", found.text());
@@ -332,13 +332,14 @@ pub fn synthesised_rows(synthesised: &[Synthesised]) -> Vec<Vec<String>> {
     synthesised.iter().map(row).collect()
 }
 
-/// A predicted error, marked where the prediction may not hold.
-pub fn prediction(point: &Point, rms: f64) -> String {
-    if point.has_few_codes() { format!("{} ?", number(rms)) } else { number(rms) }
+/// The predicted error of a quantity, marked where the prediction may not hold.
+pub fn prediction(point: &Point, quantity: usize) -> String {
+    let rms = number(point.predicted[quantity].rms);
+    if point.is_of_one[quantity] { format!("{rms} ?") } else { rms }
 }
 
 /// What the mark of [`prediction`] says.
-pub const FEW_CODES: &str = "?  some amplitude is below 128 steps of the ADC, whose rounding is then not random: expect up to three times the error";
+pub const OF_ONE: &str = "?  one slot makes most of the predicted error, so that other slots may have any: measured is what counts, more --slots show more";
 
 /// The quantities in which a point is on the front.
 pub fn front(point: &Point) -> String {

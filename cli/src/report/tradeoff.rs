@@ -11,9 +11,10 @@ use super::plot::Plot;
 use super::series::{Mark, Series};
 use super::tables;
 use crate::tradeoff::{
-    FEW_CODES, NEXT_BIT, SYNTHESISED, Tradeoff, front, loop_error, looped, next_bit_rows,
-    prediction, synthesised_rows,
+    NEXT_BIT, OF_ONE, SYNTHESISED, Tradeoff, front, loop_error, looped, next_bit_rows, prediction,
+    synthesised_rows,
 };
+use hapticore_tradeoff::cost::Family;
 use hapticore_tradeoff::errors::Quantity;
 use hapticore_tradeoff::knobs::Knob;
 use hapticore_tradeoff::loops::LoopErrors;
@@ -227,15 +228,15 @@ fn points(tradeoff: &Tradeoff) -> String {
         let knob = if point.knob.is_empty() { &tradeoff.profile } else { &point.knob };
         let value = if point.knob.is_empty() { String::new() } else { point.value.to_string() };
         let mut cells = vec![knob.clone(), value];
-        for (measured, predicted) in point.measured.iter().zip(&point.predicted) {
-            cells.extend([number::short(measured.rms), prediction(point, predicted.rms)]);
+        for (n, measured) in point.measured.iter().enumerate() {
+            cells.extend([number::short(measured.rms), prediction(point, n)]);
         }
         cells.extend(loops.iter().map(|(n, _)| loop_error(point, *n)));
         let cost = &point.cost;
         cells.extend([
             number::short(cost.age_us),
             format!("{:.0}", cost.luts),
-            format!("{:.0}", cost.flip_flops),
+            format!("{:.0}", cost.flip_flops_of(Family::Ecp5)),
             format!("{:.0}", cost.multipliers),
             format!("{:.0}", cost.memory_bits / 1024.0),
             format!("{:.0}", cost.block_rams),
@@ -267,8 +268,8 @@ fn points(tradeoff: &Tradeoff) -> String {
         "#block RAM, iCE40",
         "on the front of",
     ]);
-    let few = tradeoff.points.iter().any(Point::has_few_codes);
-    let note = if few { format!("<p class=\"note\">{FEW_CODES}</p>\n") } else { String::new() };
+    let marked = tradeoff.points.iter().any(|point| point.is_of_one.contains(&true));
+    let note = if marked { format!("<p class=\"note\">{OF_ONE}</p>\n") } else { String::new() };
     tables::texts("All points", &head, &tradeoff.points.iter().map(cells).collect::<Vec<_>>())
         + &note
 }

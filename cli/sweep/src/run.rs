@@ -13,9 +13,9 @@ use hapticore_run::{inputs, interrupt};
 use hapticore_scene::{LevelDeviation, Scene, Timing};
 use hapticore_tradeoff::bench::Bench;
 use hapticore_tradeoff::cost::{Cost, cost};
-use hapticore_tradeoff::errors::{errors, predicted, results};
+use hapticore_tradeoff::errors::{Expectation, errors, predicted, results};
 use hapticore_tradeoff::loops::{LOOP_SLOTS, LoopBench, is_flagged, is_loop};
-use hapticore_tradeoff::points::{Values, unrounded};
+use hapticore_tradeoff::points::{Values, Which, unrounded};
 
 use crate::axis::Settings;
 use crate::plan::{Fidelity, Plan};
@@ -143,7 +143,7 @@ impl<'a> Runner<'a> {
         if self.plan.predicted == 0 || self.plan.fidelity == Fidelity::Float {
             return Ok(None);
         }
-        let (errors, _, least_codes) =
+        let Expectation { errors, least_codes, .. } =
             predicted(profile, bench.calibration(), bench.some(self.plan.predicted))?;
         Ok(Some(Prediction { errors: errors.into(), least_codes }))
     }
@@ -203,7 +203,7 @@ impl<'a> Runner<'a> {
                 tried: Tried::Loop(bench),
             });
         }
-        let bench = Bench::new((&scene, index), profile, self.plan.slots, sampled)?;
+        let bench = Bench::new((&scene, index), profile, Which::Every(self.plan.slots), sampled)?;
         Ok(Ground { levels: of_levels(&*bench.serve(profile)?)?, tried: Tried::Slots(bench) })
     }
 }

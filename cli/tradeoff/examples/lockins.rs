@@ -14,7 +14,7 @@ use hapticore_reference::Reference;
 use hapticore_run::digitiser::Digitiser;
 use hapticore_run::inputs;
 use hapticore_tradeoff::bench::Bench;
-use hapticore_tradeoff::points::{Signals, Values, unrounded};
+use hapticore_tradeoff::points::{Signals, Values, Which, unrounded};
 use idsp::{Lockin, Lowpass, Lowpass2, LowpassState};
 use std::f64::consts::{SQRT_2, TAU};
 use std::num::Wrapping;
@@ -41,7 +41,7 @@ fn main() -> Result<()> {
 fn compare(name: &str, profile: &Profile) -> Result<()> {
     let scene = inputs::scene(name, &[])?;
     let scene = inputs::scene(name, &unrounded(&scene.cases[0])?)?;
-    let bench = Bench::new((&scene, 0), profile, SLOTS, true)?;
+    let bench = Bench::new((&scene, 0), profile, Which::Every(SLOTS), true)?;
     let served = bench.serve(profile)?;
     let calibration = bench.calibration();
     let mut fixed = FixedSimulation::<i64>::new(&served, calibration);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What profiles are tried on: slots of a case of a scene, and the device's calibration.
 
-use super::points::{Slot, slots};
+use super::points::{Slot, Which, slots};
 use anyhow::Result;
 use hapticore_contract::calibration::Calibration;
 use hapticore_contract::profile::Profile;
@@ -17,30 +17,35 @@ pub struct Bench {
     profile: Arc<Profile>,
     calibration: Calibration,
     slots: Vec<Slot>,
+    scene: String,
+    /// Slots of the case, run or not.
+    all: usize,
     slot_s: f64,
     seconds: f64,
 }
 
 impl Bench {
-    /// So many slots of a case; with `sampled` cores are given samples, else phasors.
+    /// Some slots of a case; with `sampled` cores are given samples, else phasors.
     ///
     /// # Errors
     /// A case that cannot be run, as [`slots`].
     pub fn new(
         (scene, index): (&Scene, usize),
         profile: &Profile,
-        count: usize,
+        which: Which,
         sampled: bool,
     ) -> Result<Self> {
         let case = Case::new(scene, index, profile, &[])?;
         let calibration = case.calibration()?.clone();
         let start = Instant::now();
-        let slots = slots(&case, count, sampled)?;
+        let slots = slots(&case, which, sampled)?;
         Ok(Bench {
             of: profile.clone(),
             profile: case.profile.clone(),
             calibration,
             slots,
+            scene: scene.name.clone(),
+            all: case.slots,
             slot_s: case.clock.seconds(1),
             seconds: start.elapsed().as_secs_f64(),
         })
@@ -73,6 +78,16 @@ impl Bench {
         served.clocks_per_sample = served.clocks_per_sample.max(served.least_clocks_per_sample());
         self.calibration.check(&served)?;
         Ok(Arc::new(served))
+    }
+
+    /// The name of the scene.
+    pub fn scene(&self) -> &str {
+        &self.scene
+    }
+
+    /// Whether so many slots leave others between them.
+    pub fn has_between(&self, count: usize) -> bool {
+        self.all / count.max(1) > 1
     }
 
     /// The calibration of the device.

@@ -7,7 +7,7 @@ use hapticore_contract::profile::Profile;
 use hapticore_hdl::area::Operations;
 use hapticore_model::blocks::core::Core;
 pub use hapticore_rtl::netlist::of_profile as netlist;
-use hapticore_synth::target::Family;
+pub use hapticore_synth::target::Family;
 use serde::{Deserialize, Serialize};
 
 /// Time and area of a core.
@@ -25,7 +25,7 @@ pub struct Cost {
     pub luts: f64,
     /// LUT4 of an iCE40, estimated.
     pub luts_ice40: f64,
-    /// Bits of registers.
+    /// Bits of registers in the netlist, of which synthesis makes [`Cost::flip_flops_of`].
     pub flip_flops: f64,
     /// Multipliers of 18 × 18, as an ECP5 has.
     pub multipliers: f64,
@@ -47,7 +47,17 @@ impl Cost {
             Family::Ice40 => self.luts_ice40,
         }
     }
+
+    /// Estimated flip-flops of a family.
+    pub fn flip_flops_of(&self, family: Family) -> f64 {
+        let [ecp5, ice40] = FLIP_FLOPS;
+        self.flip_flops * if family == Family::Ecp5 { ecp5 } else { ice40 }
+    }
 }
+
+/// Flip-flops that synthesis makes of a bit of a register, on ECP5 and on iCE40: fitted as [`LUTS`]. Multipliers and block RAMs
+/// of an iCE40 take some in; on an ECP5 some are there twice.
+const FLIP_FLOPS: [f64; 2] = [1.045, 0.84];
 
 /// The family that a profile is for: that with multipliers as wide as it says.
 pub fn family(profile: &Profile) -> Family {

@@ -80,6 +80,7 @@ pub(crate) struct Sum {
     mean: f64,
     square: f64,
     largest: f64,
+    largest_square: f64,
     count: f64,
 }
 
@@ -88,7 +89,13 @@ impl Sum {
         self.mean += mean;
         self.square += square;
         self.largest = self.largest.max(largest);
+        self.largest_square = self.largest_square.max(square);
         self.count += 1.0;
+    }
+
+    /// Whether one of several slots makes most of the mean square: that of others may have any size.
+    fn is_of_one(&self) -> bool {
+        self.count > 2.0 && self.largest_square > 0.5 * self.square
     }
 
     pub(crate) fn error(self) -> Error {
@@ -108,8 +115,20 @@ pub fn pooled(of_scenes: &[Error]) -> Error {
     Error { rms: sum.rms.sqrt(), ..sum }
 }
 
-/// What a profile's core is expected to be off on slots, by which rounding, and the least amplitude in
-/// steps of the ADC.
+/// What is expected of a profile's core.
+#[derive(Debug, Clone)]
+pub struct Expectation {
+    /// What it is off.
+    pub errors: Errors,
+    /// By which rounding.
+    pub sources: Sources,
+    /// The least amplitude in steps of the ADC.
+    pub least_codes: f64,
+    /// Whether one slot makes most of an error.
+    pub is_of_one: [bool; 3],
+}
+
+/// What a profile's core is expected to be off on slots.
 ///
 /// # Errors
 /// A core that cannot be.
@@ -117,7 +136,7 @@ pub fn predicted<'a>(
     profile: &Profile,
     calibration: &Calibration,
     slots: impl ExactSizeIterator<Item = &'a Slot>,
-) -> Result<(Errors, Sources, f64)> {
+) -> Result<Expectation> {
     let mut predictor = Predictor::new(profile, calibration)?;
     let (mut sums, mut sources) = ([Sum::default(); 3], Sources::default());
     let (mut least_codes, count) = (f64::INFINITY, slots.len() as f64);
@@ -151,7 +170,8 @@ pub fn predicted<'a>(
     for of in &mut sources {
         of.values_mut().for_each(|square| *square = square.sqrt());
     }
-    Ok((sums.map(Sum::error), sources, least_codes))
+    let is_of_one = [0, 1, 2].map(|n| sums[n].is_of_one());
+    Ok(Expectation { errors: sums.map(Sum::error), sources, least_codes, is_of_one })
 }
 
 /// What a core made of slots.

@@ -317,6 +317,8 @@ fn range(knob: Knob, profile: &Profile) -> [u64; 2] {
     };
     let reach = REACH as i64;
     let down = (1..=reach).take_while(|by| within(&-by)).last().unwrap_or(0);
-    let up = (1..=reach).take_while(within).last().unwrap_or(0);
+    // A finer ADC is another part, which a profile asks for, not a search.
+    let most = if knob == Knob::Adc { 0 } else { reach };
+    let up = (1..=most).take_while(within).last().unwrap_or(0);
     [base - down as u64, base + up as u64]
 }

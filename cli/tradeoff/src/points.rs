@@ -84,12 +84,32 @@ const FINEST_BITS: f64 = 32.0;
 /// The most of `sensor.dither_lsb_rms`.
 const MOST_DITHER_LSB: f64 = 1e3;
 
-/// Slots of a case, spread over its time; those without a valid position are left out. With
-/// `sampled` cores are given samples, else phasors.
+/// Which slots of a case.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Which {
+    /// So many, spread over its time.
+    Every(usize),
+    /// Those in the middle between these; where there are none between, the same.
+    Between(usize),
+}
+
+impl Which {
+    /// The numbers of the slots, of so many.
+    fn of(self, slots: usize) -> impl Iterator<Item = usize> {
+        let (count, is_between) = match self {
+            Which::Every(count) => (count, 0),
+            Which::Between(count) => (count, 1),
+        };
+        let step = (slots / count).max(1);
+        (is_between * (step / 2)..slots).step_by(step)
+    }
+}
+
+/// Slots of a case; those without a valid position are left out. With `sampled` cores are given samples, else phasors.
 ///
 /// # Errors
 /// A case that is controlled, or whose pads are served part by part; no slot with a valid position.
-pub fn slots(case: &Case, count: usize, sampled: bool) -> Result<Vec<Slot>> {
+pub fn slots(case: &Case, which: Which, sampled: bool) -> Result<Vec<Slot>> {
     let scene = &case.scene.name;
     ensure!(
         case.plan().is_none(),
@@ -105,9 +125,8 @@ pub fn slots(case: &Case, count: usize, sampled: bool) -> Result<Vec<Slot>> {
     let mut fine = (*case.profile).clone();
     fine.formats.adc = FINE;
     let mut ideal = engine(Fidelity::Float, &Arc::new(fine), case.calibration()?);
-    let step = (case.slots / count).max(1);
     let mut slots = Vec::new();
-    for number in (0..case.slots).step_by(step) {
+    for number in which.of(case.slots) {
         interrupt::check()?;
         let truth = plant.truth(number);
         let signals = match sampled {
@@ -206,6 +225,14 @@ mod tests {
         };
         let bits: Option<f64> = number("quantisation_bits");
         (bits, number("dither_lsb_rms").zip(bits).map(|(lsb, bits): (f64, f64)| lsb / bits.exp2()))
+    }
+
+    #[test]
+    fn slots_between_others_are_none_of_them_where_there_is_room() {
+        let numbers = |which: Which, slots| which.of(slots).collect::<Vec<_>>();
+        assert_eq!(numbers(Which::Every(3), 12), [0, 4, 8]);
+        assert_eq!(numbers(Which::Between(3), 12), [2, 6, 10]);
+        assert_eq!(numbers(Which::Between(12), 12), numbers(Which::Every(12), 12));
     }
 
     #[test]

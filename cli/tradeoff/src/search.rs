@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The cheapest profile for a stated error: found by the [`Model`], verified by running it. Where it
-//! fails, the search is repeated with a smaller target.
+//! The cheapest profile for a stated error: found by the [`Model`] or among the rows of the sweep, and judged by running
+//! it on slots that neither has seen, on the scene where it is worst. Where it fails, the search is repeated with a
+//! smaller target; where nothing holds, what is found is no larger than the profile that the search began with.
 
 use super::cost::Cost;
 use super::errors::{Error, Errors, Quantity};
 use super::knobs::Knob;
 use super::model::Model;
-use super::sweep::{Point, Trial};
+use super::sweep::{Judged, Point, Trial};
 use super::target::Target;
 use anyhow::Result;
 use hapticore_contract::profile::Profile;
@@ -25,10 +26,10 @@ pub struct Found {
     pub family: Family,
     /// Bits of each knob, and the shift of block-floating words.
     pub bits: Vec<(String, u64)>,
-    /// Predicted and measured errors.
+    /// Predicted errors, over all scenes.
     pub predicted: Errors,
-    /// Measured ones.
-    pub measured: Errors,
+    /// Measured ones, on slots that the search has not seen: each of its worst scene.
+    pub judged: Judged,
     /// What it costs, and what the profile did that the search began with.
     pub cost: Cost,
     /// Of the profile that the search began with.
@@ -48,34 +49,38 @@ impl Found {
         self.target
             .0
             .iter()
-            .zip(&self.measured)
+            .zip(&self.judged.errors)
             .all(|(most, of)| most.is_none_or(|most| of.rms <= most))
     }
 
     /// What was found, in words.
     pub fn text(&self) -> String {
         let mut lines = Vec::new();
-        for ((quantity, most), (measured, predicted)) in
-            Quantity::ALL.iter().zip(self.target.0).zip(self.measured.iter().zip(&self.predicted))
-        {
-            let Some(most) = most else { continue };
-            let holds = if measured.rms <= most { "holds" } else { "missed" };
+        for (n, quantity) in Quantity::ALL.iter().enumerate() {
+            let (Some(most), of) = (self.target.0[n], &self.judged) else { continue };
+            let (measured, predicted) = (of.errors[n].rms, self.predicted[n].rms);
+            let holds = if measured <= most { "holds" } else { "missed" };
             lines.push(format!(
-                "{}: {:.3} {} measured, {:.3} predicted, target {:.3}: {holds}",
+                "{}: {measured:.3} {} on unseen slots of {}, {predicted:.3} predicted over all scenes, target {most:.3}: {holds}",
                 quantity.name(),
-                measured.rms,
                 quantity.unit(),
-                predicted.rms,
-                most
+                of.scenes[n],
             ));
         }
+        if !self.judged.seen.is_empty() {
+            let names = self.judged.seen.join(", ");
+            lines.push(format!("{names}: no unseen slots, since --slots takes all of them"));
+        }
+        if !self.holds() {
+            lines.push("nothing that was tried meets the target; this is the nearest that is no larger than the profile".into());
+        }
         lines.push(format!(
-            "LUT4 {:.0} instead of {:.0} (estimated, {}), flip-flops {:.0} instead of {:.0}, latency {} clocks instead of {}",
+            "LUT4 {:.0} instead of {:.0} (estimated, {}), flip-flops {:.0} instead of {:.0} (likewise), latency {} clocks instead of {}",
             self.cost.luts_of(self.family),
             self.before.luts_of(self.family),
             self.part,
-            self.cost.flip_flops,
-            self.before.flip_flops,
+            self.cost.flip_flops_of(self.family),
+            self.before.flip_flops_of(self.family),
             self.cost.latency_clocks,
             self.before.latency_clocks
         ));
@@ -109,21 +114,25 @@ pub fn models(trial: &Trial, family: Family, swept: &[Point]) -> Result<Vec<Mode
     Ok(models)
 }
 
-/// The cheapest profile of some models whose errors are within the target. The first model is of the
-/// profile that the search begins with.
+/// The cheapest profile of some models, or of a sweep's rows, whose errors are within the target. The first model
+/// and the first row are of the profile that the search begins with.
 ///
 /// # Errors
 /// As [`Trial::run`].
 ///
 /// # Panics
-/// Where there is no model.
-pub fn search(trial: &Trial, models: &[Model], target: &Target) -> Result<Found> {
+/// Where there is no model or no row.
+pub fn search(trial: &Trial, swept: &[Point], models: &[Model], target: &Target) -> Result<Found> {
     let (least, family) = (least(models), models[0].family());
     let missed: Vec<_> = (0..3)
         .filter(|n| target.0[*n].is_some_and(|most| least[*n] > most))
         .map(|n| (Quantity::ALL[n], least[n]))
         .collect();
-    let Verified { point, profile, .. } = verified(trial, models, target, missed.is_empty())?;
+    let start = Verified::of(trial, models[0].family(), swept[0].clone(), target)?;
+    let rows = of_rows(trial, swept, (&start, family), target)?;
+    let found = verified(trial, models, target, (start, rows), missed.is_empty())?;
+    let Verified { point, judged, profile, .. } = found;
+    let limit = limit(&point, &judged, target);
     let listed = Knob::words().chain([Knob::BlockShift]);
     Ok(Found {
         target: *target,
@@ -131,10 +140,10 @@ pub fn search(trial: &Trial, models: &[Model], target: &Target) -> Result<Found>
         family,
         bits: listed.map(|knob| (knob.key().into(), knob.value(&profile))).collect(),
         predicted: point.predicted,
-        measured: point.measured,
+        judged,
         cost: point.cost,
         before: models[0].cost(),
-        limit: limit(&point, target),
+        limit,
         missed,
         profile,
     })
@@ -148,22 +157,29 @@ fn least(models: &[Model]) -> [f64; 3] {
 }
 
 /// A profile that was run.
+#[derive(Clone)]
 struct Verified {
     point: Point,
+    judged: Judged,
     profile: Profile,
-    /// By how much measured errors are beyond the target, the largest ratio.
+    /// By how much errors are beyond the target, the largest ratio.
     over: f64,
     luts: f64,
 }
 
 impl Verified {
     fn run(trial: &Trial, model: &Model, bits: &[u64], target: &Target) -> Result<Self> {
+        let profile = model.profile(bits);
+        let point = trial.run(&[(None, profile)], &|| ())?.remove(0);
+        Verified::of(trial, model.family(), point, target)
+    }
+
+    fn of(trial: &Trial, family: Family, point: Point, target: &Target) -> Result<Self> {
         let name = format!("{}-found", trial.profile().name);
-        let profile = Profile { name, ..model.profile(bits) };
-        let point = trial.run(&[(None, profile.clone())], &|| ())?.remove(0);
-        let ratio = |(of, most): (&Error, &Option<f64>)| most.map_or(0.0, |most| of.rms / most);
-        let over = point.measured.iter().zip(&target.0).map(ratio).fold(0.0, f64::max);
-        Ok(Verified { over, luts: point.cost.luts_of(model.family()), point, profile })
+        let profile = Profile { name, ..(*point.profile).clone() };
+        let judged = trial.judge(&profile)?;
+        let over = beyond(&judged.errors, target);
+        Ok(Verified { over, luts: point.cost.luts_of(family), point, judged, profile })
     }
 
     fn holds(&self) -> bool {
@@ -180,36 +196,68 @@ impl Verified {
     }
 }
 
+/// By how much errors are beyond a target, the largest ratio.
+fn beyond(errors: &Errors, target: &Target) -> f64 {
+    let ratio = |(of, most): (&Error, &Option<f64>)| most.map_or(0.0, |most| of.rms / most);
+    errors.iter().zip(&target.0).map(ratio).fold(0.0, f64::max)
+}
+
+/// The smallest row of a sweep that meets the target, if it is smaller than the start, or the start does not.
+fn of_rows(
+    trial: &Trial,
+    swept: &[Point],
+    (start, family): (&Verified, Family),
+    target: &Target,
+) -> Result<Option<Verified>> {
+    let luts = |point: &&Point| point.cost.luts_of(family);
+    let meets = |point: &&Point| beyond(&point.measured, target) <= 1.0;
+    let mut rows: Vec<&Point> = swept[1..].iter().filter(meets).collect();
+    rows.sort_by(|a, b| luts(a).total_cmp(&luts(b)));
+    for row in rows {
+        let row = Verified::of(trial, family, row.clone(), target)?;
+        if row.holds() {
+            return Ok(Some(row).filter(|row| row.is_better(start)));
+        }
+    }
+    Ok(None)
+}
+
 /// How often a target is tightened where the profile that was found misses it.
 const TRIES: usize = 6;
 
-/// The best profile of all models, as measured. The model of fewest predicted LUT4 comes first; of the
-/// others nothing is run that would not be smaller than what holds.
-fn verified(trial: &Trial, models: &[Model], target: &Target, tightens: bool) -> Result<Verified> {
+/// The best profile of all models, of a row and of the start, as judged. The model of fewest predicted LUT4 comes
+/// first; nothing is run that would not be smaller than what holds.
+fn verified(
+    trial: &Trial,
+    models: &[Model],
+    target: &Target,
+    (start, row): (Verified, Option<Verified>),
+    tightens: bool,
+) -> Result<Verified> {
     let luts = |model: &Model| model.luts(&model.cheapest(&target.0));
     let mut by_luts: Vec<_> = models.iter().map(|model| (luts(model), model)).collect();
     by_luts.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let mut best: Option<Verified> = None;
+    let most_luts = start.luts;
+    let mut best = row.unwrap_or(start);
     for (_, model) in by_luts {
         let mut most = target.0;
         for _ in 0..if tightens { TRIES } else { 1 } {
             let bits = model.cheapest(&most);
-            let smaller = |best: &Verified| !best.holds() || model.luts(&bits) < best.luts;
-            if !best.as_ref().is_none_or(smaller) {
+            if best.holds() && model.luts(&bits) >= best.luts {
                 break;
             }
             let tried = Verified::run(trial, model, &bits, target)?;
             let holds = tried.holds();
-            most = tightened(most, &model.squares(&bits), &tried.point.measured, target);
-            if best.as_ref().is_none_or(|best| tried.is_better(best)) {
-                best = Some(tried);
+            most = tightened(most, &model.squares(&bits), &tried.judged.errors, target);
+            if tried.is_better(&best) && (holds || tried.luts <= most_luts) {
+                best = tried;
             }
             if holds {
                 break;
             }
         }
     }
-    Ok(best.expect("there is a model"))
+    Ok(best)
 }
 
 /// Limits of what is predicted, so much smaller as measured errors are beyond the target.
@@ -228,8 +276,8 @@ fn tightened(
 }
 
 /// The quantity nearest to its target, and the source that adds most to it.
-fn limit(point: &Point, target: &Target) -> Option<(Quantity, String)> {
-    let share = |n: &usize| target.0[*n].map_or(0.0, |most| point.measured[*n].rms / most);
+fn limit(point: &Point, judged: &Judged, target: &Target) -> Option<(Quantity, String)> {
+    let share = |n: &usize| target.0[*n].map_or(0.0, |most| judged.errors[*n].rms / most);
     let nearest = (0..3).max_by(|a, b| share(a).total_cmp(&share(b)))?;
     let most = point.sources[nearest].iter().max_by(|a, b| a.1.total_cmp(b.1))?;
     target.0[nearest].map(|_| (Quantity::ALL[nearest], most.0.clone()))

@@ -8,9 +8,9 @@ use super::forecast::{Forecast, forecast, mean};
 use super::front::front;
 use super::knobs::Knob;
 use super::loops::{LOOP_SLOTS, LoopBench, LoopErrors, case_of, controlled, is_loop};
+use super::points::Which;
 use anyhow::Result;
 use hapticore_contract::profile::Profile;
-use hapticore_model::fidelity::noise::Predictor;
 use hapticore_run::engine::Fidelity;
 use hapticore_run::interrupt;
 use hapticore_scene::Scene;
@@ -36,6 +36,8 @@ pub struct Point {
     pub looped: LoopErrors,
     /// The least amplitude of a channel in steps of the ADC.
     pub least_codes: f64,
+    /// Whether one slot makes most of a predicted error, which then may be any.
+    pub is_of_one: [bool; 3],
     /// What the predicted errors are made of.
     #[serde(skip)]
     pub sources: Sources,
@@ -57,14 +59,20 @@ pub struct Trial {
     slots: usize,
     /// Those that were made: profiles of later runs share them, too.
     benches: Mutex<Vec<Arc<Vec<Bench>>>>,
+    /// Of slots that no other run sees.
+    judges: Mutex<Vec<Arc<Vec<Bench>>>>,
     loop_benches: Mutex<Vec<Arc<Vec<LoopBench>>>>,
 }
 
-impl Point {
-    /// Whether some channel met too few codes for a prediction to hold.
-    pub fn has_few_codes(&self) -> bool {
-        self.least_codes < Predictor::FEW_CODES
-    }
+/// What a profile is off where it is worst, on slots that a search has not seen.
+#[derive(Debug, Clone, Serialize)]
+pub struct Judged {
+    /// Errors of force, capacitance and position: each of its worst scene.
+    pub errors: Errors,
+    /// The names of these scenes.
+    pub scenes: [String; 3],
+    /// Scenes that have no slots between those that were seen: judged on the same.
+    pub seen: Vec<String>,
 }
 
 impl Trial {
@@ -76,8 +84,8 @@ impl Trial {
         let (loops, scenes): (Vec<_>, _) =
             scenes.into_iter().partition(|scene| is_loop(&scene.cases[case_of(scene)]));
         let loops = loops.into_iter().map(Arc::new).collect();
-        let (benches, loop_benches) = (Mutex::default(), Mutex::default());
-        Trial { scenes, loops, profile, slots, benches, loop_benches }
+        let (benches, judges, loop_benches) = Default::default();
+        Trial { scenes, loops, profile, slots, benches, judges, loop_benches }
     }
 
     /// The profile itself.
@@ -149,12 +157,44 @@ impl Trial {
         profiles.par_iter().zip(&benches).map(of).collect()
     }
 
+    /// What a profile's core is off on slots between those of [`run`](Self::run), scene by scene.
+    ///
+    /// # Errors
+    /// As [`run`](Self::run).
+    ///
+    /// # Panics
+    /// Where all scenes are force loops.
+    pub fn judge(&self, profile: &Profile) -> Result<Judged> {
+        let benches = self.benches_of(&self.judges, Which::Between(self.slots), profile)?;
+        let of_scenes = benches.par_iter().map(|bench| Ok((bench, measured(bench, profile)?)));
+        let of_scenes = of_scenes.collect::<Result<Vec<_>>>()?;
+        let worst = [0, 1, 2].map(|n| {
+            let by_rms = of_scenes.iter().max_by(|a, b| a.1[n].rms.total_cmp(&b.1[n].rms));
+            by_rms.expect("a scene")
+        });
+        let seen = benches.iter().filter(|bench| !bench.has_between(self.slots));
+        Ok(Judged {
+            errors: [0, 1, 2].map(|n| worst[n].1[n]),
+            scenes: worst.map(|(bench, _)| bench.scene().to_owned()),
+            seen: seen.map(|bench| bench.scene().to_owned()).collect(),
+        })
+    }
+
     fn benches(&self, profile: &Profile) -> Result<Arc<Vec<Bench>>> {
-        let mut made = self.benches.lock().expect("nobody panics with it");
+        self.benches_of(&self.benches, Which::Every(self.slots), profile)
+    }
+
+    fn benches_of(
+        &self,
+        made: &Mutex<Vec<Arc<Vec<Bench>>>>,
+        which: Which,
+        profile: &Profile,
+    ) -> Result<Arc<Vec<Bench>>> {
+        let mut made = made.lock().expect("nobody panics with it");
         if let Some(known) = made.iter().find(|of| of.iter().all(|bench| bench.suits(profile))) {
             return Ok(known.clone());
         }
-        let bench = |scene| Bench::new((scene, 0), profile, self.slots, true);
+        let bench = |scene| Bench::new((scene, 0), profile, which, true);
         let benches = Arc::new(self.scenes.iter().map(bench).collect::<Result<Vec<_>>>()?);
         made.push(benches.clone());
         Ok(benches)
@@ -181,12 +221,8 @@ fn point(
     profile: &Profile,
     (benches, loops): (&[Bench], &[LoopBench]),
 ) -> Result<Point> {
-    let Forecast { cost, predicted, sources, least_codes } = forecast(profile, benches)?;
-    let measured = benches.iter().map(|bench| {
-        let (profile, calibration) = (bench.serve(profile)?, bench.calibration());
-        let results = results(Fidelity::Fixed, &profile, calibration, bench.slots());
-        Ok(errors(&results.values, bench.slots().iter().map(|slot| &slot.ideal)))
-    });
+    let Forecast { cost, predicted, sources, least_codes, is_of_one } = forecast(profile, benches)?;
+    let measured = benches.iter().map(|bench| measured(bench, profile));
     let of_loop = |bench: &LoopBench| Ok(bench.errors(&bench.run(profile, Fidelity::Fixed)?));
     let looped = loops.iter().map(of_loop);
     let looped = LoopErrors::pooled(&looped.collect::<Result<Vec<_>>>()?);
@@ -198,11 +234,19 @@ fn point(
         measured: mean(&measured.collect::<Result<Vec<_>>>()?),
         looped,
         least_codes,
+        is_of_one,
         sources,
         front: [false; 3],
         front_in_loops: [false; 3],
         profile: Arc::new(profile.clone()),
     })
+}
+
+/// What a profile's core is off on the slots of a bench.
+fn measured(bench: &Bench, profile: &Profile) -> Result<Errors> {
+    let (profile, calibration) = (bench.serve(profile)?, bench.calibration());
+    let results = results(Fidelity::Fixed, &profile, calibration, bench.slots());
+    Ok(errors(&results.values, bench.slots().iter().map(|slot| &slot.ideal)))
 }
 
 /// Marks the points that none beats in error, size and age together.

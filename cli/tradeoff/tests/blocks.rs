@@ -54,7 +54,7 @@ fn a_search_finds_block_floating_words() {
     for position_um in [150.0, 50.0] {
         let mut target = Target::default();
         target.0[Quantity::Position as usize] = Some(position_um);
-        let of = |models: &[Model]| search(&trial, models, &target).expect("a search");
+        let of = |models: &[Model]| search(&trial, &swept, models, &target).expect("a search");
         let [with, without] = [of(&models), of(&models[..1])];
         println!("{}\nwithout blocks:\n{}\n", with.text(), without.text());
         assert!(with.holds() && without.holds(), "{position_um} µm");

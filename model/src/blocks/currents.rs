@@ -230,8 +230,12 @@ impl Currents {
     /// The in-phase or quadrature word of a sum, and whether it is saturated.
     #[inline(always)]
     fn word<V: Interpretation>(&self, sum: Signal<V>) -> (Signal<V>, Signal<V>) {
-        let rounding = if self.block == 0 { HalfEven } else { Floor };
-        sum.scaled(-self.shift).saturate(self.wide(), rounding)
+        let exact = sum.scaled(-self.shift);
+        if self.block == 0 {
+            return exact.saturate(self.wide(), HalfEven);
+        }
+        let (word, held) = exact.saturate(self.wide(), Floor);
+        (word.golden(&[exact], |of| of[0]), held)
     }
 
     /// A sum arrives: its word goes into the memory, and with the last the loop over channels

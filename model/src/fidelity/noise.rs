@@ -8,9 +8,16 @@
 //! ```
 //!
 //! The sums' errors are what the oscillator's words do to these samples or tones, which is known, and
-//! the ADC's rounding of each sample, whose variance is a twelfth of a step's square where samples
-//! meet many codes at random. From there on the estimator is run as
-//! [`Noise`].
+//! the ADC's rounding of each sample, whose variance is a twelfth of a step's square e². Of samples of the same
+//! phase, and with the other sign of those half a turn later, it has the part ρ in common:
+//!
+//! ```text
+//! var = e²/12 · ((1 − ρ)·Σ w_n² + ρ·Σ_phases (Σ w_n)²),   ρ = Σ_k 6/(πk)²·e^(−(2πkσ)²)
+//! ```
+//!
+//! with the noise σ of a sample in steps, which the samples show (source: Widrow and Kollár, Quantization Noise, 2008:
+//! the Fourier series of the rounding error). Where a channel meets few codes, the rounding of all
+//! is what it is for these samples. From there on the estimator is run as [`Noise`].
 
 use super::fixed::{FixedSimulation, calibrated, quiet, run};
 use super::signals;
@@ -20,10 +27,12 @@ use crate::blocks::estimator::{In, Inputs};
 use hapticore_contract::calibration::Calibration;
 use hapticore_contract::profile::{Profile, ProfileError};
 use hapticore_hdl::block::State;
+use hapticore_hdl::format::Format;
 use hapticore_hdl::interpretations::noise::{Errors, Mark, Moments, Noise, Recording};
 use hapticore_hdl::interpretations::real::Real;
 use hapticore_hdl::interpretations::shadow::Shadow;
 use hapticore_hdl::signal::{Signal, bit, code, constant};
+use std::f64::consts::{PI, TAU};
 
 /// What is in a slot's window.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -84,18 +93,21 @@ pub struct Predictor {
     of_reals: FixedSimulation<Real>,
     /// The local oscillator over the window, by its words and without rounding.
     waves: [Vec<WindowedSample>; 2],
-    /// Variance of the sums that one of each sample gives: in phase and quadrature.
-    tone: [f64; 2],
+    /// Variance of the sums that one of each sample gives, in phase and quadrature: each for itself, and one for each phase.
+    tone: [[f64; 2]; 2],
     /// Σw² and Σw: of the haptic voltage's squares.
     window: f64,
     window_sum: f64,
     samples: f64,
-    adc_lsb: f64,
+    adc: Format,
+    /// Samples after which a tone of the carrier is the same again, or the same with the other sign.
+    repeat: (usize, f64),
 }
 
 impl Predictor {
     /// Below so many steps of the ADC an amplitude meets too few codes for its rounding to be random,
-    /// where no noise is added to it: errors are then up to three times those predicted.
+    /// where no noise is added to it. Errors of tones are then up to three times those predicted; those of samples are
+    /// those of these very samples, and only many slots say what others have.
     pub const FEW_CODES: f64 = 128.0;
 
     /// A predictor of a profile's core, calibrated.
@@ -121,12 +133,15 @@ impl Predictor {
         let begun = recording.mark();
         let waves = [of_codes.windowed(), of_reals.windowed()];
         let power = |of: usize| waves[1].iter().map(|sample| sample[of] * sample[of]).sum::<f64>();
+        let repeat = repeat(profile.slot.integrate as usize, profile.carrier.periods as usize);
+        let tone = [0, 1].map(|of| [power(of), power_by_phase(&waves[1], of, repeat)]);
         Ok(Predictor {
-            tone: [power(0), power(1)],
+            tone,
             window: power(2),
             window_sum: waves[1].iter().map(|sample| sample[2]).sum(),
             samples: waves[1].len() as f64,
-            adc_lsb: profile.formats.adc.lsb(),
+            adc: profile.formats.adc,
+            repeat,
             core,
             recording,
             state,
@@ -158,7 +173,7 @@ impl Predictor {
     /// steps of the ADC.
     fn sums(&mut self, signals: Signals) -> (Vec<Signal<Noise>>, f64) {
         let format = self.core.demodulator().sum();
-        let [codes, reals] = match signals {
+        let [mut codes, reals] = match signals {
             Signals::Samples(samples) => {
                 self.waves.each_ref().map(|waves| sums_of_samples(waves, samples))
             }
@@ -167,24 +182,56 @@ impl Predictor {
                 self.of_reals.sums_of_tones(amplitudes, mean_square),
             ],
         };
-        let step = self.adc_lsb * self.adc_lsb / 12.0;
         let last = reals.len() - 1;
+        let amplitude = |pair: &[f64]| 2.0 * pair[0].hypot(pair[1]) / self.window_sum;
+        let least = reals[..last].chunks_exact(2).map(amplitude).fold(f64::INFINITY, f64::min);
+        let least_codes = least / self.adc.lsb();
+        let step = self.adc.lsb() * self.adc.lsb() / 12.0;
+        let mut common = vec![0.0; last / 2];
+        let mut is_known = false;
+        if let Signals::Samples(samples) = signals {
+            is_known = least_codes < Self::FEW_CODES;
+            common = self.common(samples);
+            if is_known {
+                codes = sums_of_samples(&self.waves[0], &self.rounded(samples));
+            }
+        }
         let mean_square = reals[last] / self.window_sum;
         let sum = |(n, (rounded, real)): (usize, (f64, f64))| {
             let code = format.code_saturating(rounded);
-            let variance = match n {
-                // Of (h + e)·w·h with another step's rounding of w·h.
-                _ if n == last => step * mean_square * (4.0 * self.window + self.samples),
-                _ => step * self.tone[n % 2],
+            let [each, by_phase] = self.tone[n % 2];
+            // The sum of squares is of (h + e)·w·h, with another step's rounding of w·h.
+            let variance = match is_known {
+                true if n == last => step * mean_square * self.samples,
+                true => 0.0,
+                false if n == last => step * mean_square * (4.0 * self.window + self.samples),
+                false => step * (each + common[n / 2] * (by_phase - each)),
             };
-            let known = Moments::known(rounded - real);
             let adc = Moments { mean: 0.0, variance, bound: SIGMAS * variance.sqrt() };
+            let known = Moments::known(rounded - real);
             self.recording.input("adc", Shadow { code, real }, format, known.plus(adc))
         };
-        let amplitude = |pair: &[f64]| 2.0 * pair[0].hypot(pair[1]) / self.window_sum;
-        let least = reals[..last].chunks_exact(2).map(amplitude).fold(f64::INFINITY, f64::min);
         let sums = codes.into_iter().zip(reals).enumerate().map(sum).collect();
-        (sums, least / self.adc_lsb)
+        (sums, least_codes)
+    }
+
+    /// Samples as the ADC rounds them.
+    fn rounded(&self, samples: &[f64]) -> Vec<f64> {
+        samples.iter().map(|sample| self.adc.real(self.adc.code_saturating(*sample))).collect()
+    }
+
+    /// ρ of each demodulated channel: which part of its rounding samples of the same phase have in common.
+    fn common(&self, samples: &[f64]) -> Vec<f64> {
+        let ((lag, sign), count) = (self.repeat, self.waves[0].len());
+        let channels = samples.len() / count;
+        let of = |channel: usize| {
+            let sample = |n: usize| samples[n * channels + channel];
+            let differences = (lag..count).map(|n| sample(n) - sign * sample(n - lag));
+            // Half the square of a difference of two has the noise's variance.
+            let variance = differences.map(|of| of * of).sum::<f64>() / (2 * (count - lag)) as f64;
+            correlation(variance / (self.adc.lsb() * self.adc.lsb()))
+        };
+        (0..channels - 1).map(|channel| if lag < count { of(channel) } else { 0.0 }).collect()
     }
 
     fn results(&self, state: &State<Core, Noise>) -> Prediction {
@@ -204,6 +251,34 @@ impl Predictor {
             least_codes: 0.0,
         }
     }
+}
+
+/// Samples after which a carrier of so many periods in a window's samples has its phase again, or half a turn
+/// more: then with the sign −1.
+fn repeat(samples: usize, periods: usize) -> (usize, f64) {
+    let (mut a, mut b) = (samples, periods);
+    while b != 0 {
+        (a, b) = (b, a % b);
+    }
+    let turn = samples / a;
+    if turn.is_multiple_of(2) { (turn / 2, -1.0) } else { (turn, 1.0) }
+}
+
+/// The sum over the phases of the squares of what one for each sample of a phase gives.
+fn power_by_phase(waves: &[WindowedSample], of: usize, (lag, sign): (usize, f64)) -> f64 {
+    let mut phases = vec![0.0; lag];
+    for (n, sample) in waves.iter().enumerate() {
+        let turned = if (n / lag).is_multiple_of(2) { 1.0 } else { sign };
+        phases[n % lag] += turned * sample[of];
+    }
+    phases.iter().map(|of| of * of).sum()
+}
+
+/// ρ of noise whose variance is so many squares of a step.
+fn correlation(variance: f64) -> f64 {
+    let term = |k: f64| 6.0 / (PI * k).powi(2) * (-(TAU * k).powi(2) * variance).exp();
+    // As many terms as leave less than a hundredth without noise.
+    (1..=64).map(|k| term(f64::from(k))).sum()
 }
 
 /// The sums of a window: in phase and quadrature of each channel but the last, of which the squares

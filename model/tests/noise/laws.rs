@@ -19,7 +19,7 @@ fn standard() -> Profile {
 /// Measured and predicted errors of a result.
 fn errors(profile: &Profile, scene: &Scene, quantity: usize) -> [f64; 2] {
     let calibration = calibration(profile);
-    let (predicted, _) = predicted(profile, &calibration, scene);
+    let (predicted, _) = predicted(profile, &calibration, scene, 7);
     let measured = measured(profile, &calibration, scene, 7);
     [measured, predicted].map(|of: [Moments; 5]| of[quantity].rms())
 }

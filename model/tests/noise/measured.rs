@@ -18,8 +18,8 @@ use xprec::Df64;
 pub const QUANTITIES: [&str; 5] = ["x", "y", "C", "F", "m"];
 /// Noise of the analog part, of full scale.
 const NOISE: f64 = 18e-6;
-/// Phases of the carrier for which errors are predicted.
-const TURNS: [f64; 2] = [0.05, 0.3];
+/// Slots of each point for which errors are predicted, each at a phase of its own; where channels meet few codes, all that are measured.
+const PREDICTED: usize = 4;
 /// A converter that rounds nothing away.
 const FINE: Format = Format::signed(30, 29);
 
@@ -100,35 +100,40 @@ fn tones(profile: &Profile, point: &Point, turn: f64) -> Vec<[f64; 2]> {
     (0..profile.terminals.x.len()).map(terminal).chain([[point.sense, turn]]).collect()
 }
 
-/// What a core's results at these points are expected to be off, on average; and the least amplitude
-/// in steps of the ADC.
+/// What a core's results at these points are expected to be off, on average over the first slots of a seed; and the
+/// least amplitude in steps of the ADC.
 pub fn predicted(
     profile: &Profile,
     calibration: &Calibration,
     scene: &Scene,
+    seed: u64,
 ) -> ([Moments; 5], f64) {
     let mut predictor = Predictor::new(profile, calibration).expect("a core");
     let (mut sums, mut least_codes) = ([[0.0; 3]; 5], f64::INFINITY);
-    for point in &scene.points {
-        for turn in TURNS {
-            let amplitudes = tones(profile, point, turn);
-            let amplitudes = amplitudes.iter().map(|[amplitude, phase]| {
-                let (sine, cosine) = (TAU * phase).sin_cos();
-                (amplitude * cosine, amplitude * sine)
-            });
-            let mean_square = 0.5 * point.haptic * point.haptic;
-            let amplitudes: Vec<_> = amplitudes.collect();
-            let tones = Signals::Tones { amplitudes: &amplitudes, mean_square };
-            let Prediction { x, y, capacitance, force, mean_square, least_codes: codes } =
-                predictor.slot(0, tones);
-            least_codes = least_codes.min(codes);
-            for (sum, of) in sums.iter_mut().zip([x, y, capacitance, force, mean_square]) {
-                let total = of.errors.total;
-                *sum = [sum[0] + total.mean, sum[1] + total.rms().powi(2), sum[2].max(total.bound)];
-            }
+    let mut count = 0;
+    for samples in slots(profile, scene, seed) {
+        if count >= PREDICTED * scene.points.len() && least_codes >= Predictor::FEW_CODES {
+            break;
         }
+        let Prediction { x, y, capacitance, force, mean_square, least_codes: codes } =
+            predictor.slot(0, Signals::Samples(&samples));
+        least_codes = least_codes.min(codes);
+        for (sum, of) in sums.iter_mut().zip([x, y, capacitance, force, mean_square]) {
+            let total = of.errors.total;
+            *sum = [sum[0] + total.mean, sum[1] + total.rms().powi(2), sum[2].max(total.bound)];
+        }
+        count += 1;
     }
-    (sums.map(|sum| averaged(sum, TURNS.len() * scene.points.len())), least_codes)
+    (sums.map(|sum| averaged(sum, count)), least_codes)
+}
+
+/// The samples of all slots, from a seed.
+fn slots(profile: &Profile, scene: &Scene, seed: u64) -> impl Iterator<Item = Vec<f64>> {
+    let mut random = Random::new(seed);
+    (0..scene.slots()).map(move |slot| {
+        let point = scene.points[slot % scene.points.len()].near(&mut random);
+        samples(profile, &point, &mut random)
+    })
 }
 
 /// Moments of errors one after the other.
@@ -157,11 +162,8 @@ pub fn measured_against(
 ) -> [Moments; 5] {
     let mut core = FixedSimulation::<i64>::new(profile, calibration);
     let mut ideal = Reference::new(&finely_sampled(ideal), calibration);
-    let mut random = Random::new(seed);
-    let (mut sums, count) = ([[0.0; 3]; 5], scene.slots());
-    for slot in 0..count {
-        let point = scene.points[slot % scene.points.len()].near(&mut random);
-        let samples = samples(profile, &point, &mut random);
+    let mut sums = [[0.0; 3]; 5];
+    for samples in slots(profile, scene, seed) {
         let core = core.slot(0, &codes(&samples, profile.formats.adc)).measurement(profile);
         let (core, ideal) = (values(&core), values(&ideal.slot(0, &codes(&samples, FINE))));
         for (sum, (core, ideal)) in sums.iter_mut().zip(core.into_iter().zip(ideal)) {
@@ -169,7 +171,7 @@ pub fn measured_against(
             *sum = [sum[0] + error, sum[1] + error * error, sum[2].max(error.abs())];
         }
     }
-    sums.map(|sum| averaged(sum, count))
+    sums.map(|sum| averaged(sum, scene.slots()))
 }
 
 /// What each result of the floating-point reference is off in single and in double precision: root of the
@@ -184,11 +186,9 @@ pub fn reference_errors(
     let mut single = Reference::<f32>::with_precision(&fine, calibration);
     let mut double = Reference::new(&fine, calibration);
     let mut exact = Reference::<Df64>::with_precision(&fine, calibration);
-    let mut random = Random::new(seed);
     let (mut squares, count) = ([[0.0; 5]; 2], scene.slots());
-    for slot in 0..count {
-        let point = scene.points[slot % scene.points.len()].near(&mut random);
-        let codes = codes(&samples(profile, &point, &mut random), FINE);
+    for samples in slots(profile, scene, seed) {
+        let codes = codes(&samples, FINE);
         let exact = values(&exact.slot(0, &codes));
         let single = values(&single.slot(0, &codes).map(f64::from)).map(Df64::from);
         let double = values(&double.slot(0, &codes)).map(Df64::from);

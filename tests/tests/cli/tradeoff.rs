@@ -35,7 +35,7 @@ fn a_tradeoff_is_swept_and_the_profile_that_is_found_is_one() {
     assert!(short > 8.0 * long, "four bits: {short} mN, {long} mN");
     let found = &told["found"];
     for (n, most) in [(0, 1.0), (2, 500.0)] {
-        let measured = found["measured"][n]["rms"].as_f64().expect("a number");
+        let measured = found["judged"]["errors"][n]["rms"].as_f64().expect("a number");
         assert!(measured <= most, "{measured} of {most}");
     }
     let cells = |of: &str| found[of]["luts"].as_f64().expect("a number");

@@ -43,6 +43,14 @@ pub struct Noise {
     pub shadow: Shadow,
     /// Where its derivatives are written down.
     entry: Entry,
+    /// Last bits of the code that are zero whatever the number is: it has been moved up.
+    zeros: u8,
+}
+
+impl Noise {
+    fn new(shadow: Shadow, entry: Entry) -> Self {
+        Noise { shadow, entry, zeros: 0 }
+    }
 }
 
 /// A memory of the noise interpretation.
@@ -59,7 +67,7 @@ fn shadow(a: Signal<Noise>) -> Signal<Shadow> {
 
 /// A value that is exact, or decides.
 fn exact(shadow: Shadow) -> Noise {
-    Noise { shadow, entry: EXACT }
+    Noise::new(shadow, EXACT)
 }
 
 /// The error that a code of this value has already: of a word of a table, of a constant.
@@ -69,7 +77,7 @@ fn known(shadow: Shadow, format: Format) -> Noise {
         0.0 => EXACT,
         _ => with(|tape| tape.source([(EXACT, 0.0); 2], Moments::known(error))),
     };
-    Noise { shadow, entry }
+    Noise::new(shadow, entry)
 }
 
 /// What an operation of two operands makes, with the derivatives by either.
@@ -77,7 +85,7 @@ fn of_two(shadow: Shadow, [a, b]: [Noise; 2], [by_a, by_b]: [f64; 2]) -> Noise {
     if a.entry == EXACT && b.entry == EXACT {
         return exact(shadow);
     }
-    Noise { shadow, entry: with(|tape| tape.operation([(a.entry, by_a), (b.entry, by_b)])) }
+    Noise::new(shadow, with(|tape| tape.operation([(a.entry, by_a), (b.entry, by_b)])))
 }
 
 impl Value for Noise {
@@ -111,11 +119,15 @@ impl Value for Noise {
 
     fn quantize(a: Signal<Self>, to: Format, rounding: Rounding, overflow: Overflow) -> Self {
         let result = Shadow::quantize(shadow(a), to, rounding, overflow);
-        let dropped = u8::try_from(a.format.frac - to.frac).unwrap_or(0);
+        let fewer = a.format.frac - to.frac;
+        let (bits, more) = (fewer.max(0).unsigned_abs(), fewer.min(0).unsigned_abs());
+        // Bits that are zero are no loss.
+        let dropped = bits.saturating_sub(a.value.zeros);
+        let zeros = a.value.zeros.saturating_sub(bits) + more;
         // Of nothing at all nothing is rounded away.
         let nothing = a.value.shadow == Shadow { code: 0, real: 0.0 };
         if a.value.entry == EXACT || dropped == 0 || rounding == Rounding::Exact || nothing {
-            return Noise { shadow: result, ..a.value };
+            return Noise { shadow: result, zeros, ..a.value };
         }
         let from = a.value.entry;
         if rounding == Rounding::Floor {
@@ -124,17 +136,16 @@ impl Value for Noise {
             return with(|tape| {
                 let entry = tape.push([(EXACT, 0.0); 2]);
                 tape.floored = Some(Floored { entry, before, dropped });
-                Noise { shadow: result, entry }
+                Noise::new(result, entry)
             });
         }
         let moments = Moments::of_rounding(rounding, dropped, to.lsb());
-        let entry = with(|tape| tape.source([(from, 1.0), (EXACT, 0.0)], moments));
-        Noise { shadow: result, entry }
+        Noise::new(result, with(|tape| tape.source([(from, 1.0), (EXACT, 0.0)], moments)))
     }
 
     fn scale(a: Self, by: i8) -> Self {
         let result = Shadow::scale(a.shadow, by);
-        of_two(result, [a, a], [2f64.powi(by.into()), 0.0])
+        Noise { zeros: a.zeros, ..of_two(result, [a, a], [2f64.powi(by.into()), 0.0]) }
     }
 
     fn bits(a: Signal<Self>, low: u8, to: Format) -> Self {
@@ -204,7 +215,7 @@ impl Value for Noise {
             let from = [(both, 1.0), (rest, 1.0)];
             let is_exact = off.abs() < 1e-6 * a.format.lsb();
             let entry = if is_exact { tape.operation(from) } else { tape.source(from, moments) };
-            Noise { shadow: result, entry }
+            Noise::new(result, entry)
         })
     }
 
@@ -252,7 +263,7 @@ impl Storage for Noise {
     }
 
     fn data(memory: &Memory, words: &mut Words) -> Self {
-        Noise { shadow: Shadow::data(memory, &mut words.shadows), entry: words.data }
+        Noise::new(Shadow::data(memory, &mut words.shadows), words.data)
     }
 
     fn access(

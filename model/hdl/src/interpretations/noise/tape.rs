@@ -195,7 +195,7 @@ impl Recording {
             tape.scope = before;
             entry
         });
-        Signal { value: Noise { shadow, entry }, format }
+        Signal { value: Noise::new(shadow, entry), format }
     }
 
     /// The error of a value.

@@ -79,3 +79,15 @@ fn a_recording_leaves_what_was_rounded_before_a_floor() {
     recording.rewind(mark);
     assert!(with(|tape| tape.floored.is_none()), "the entry's number is free again");
 }
+
+#[test]
+fn zeros_that_moving_up_leaves_are_dropped_without_an_error() {
+    let recording = Recording::begin();
+    let up = input(&recording, 3.0).scaled(2).resize(Format::signed(14, 4), Proved);
+    let of = |frac: i8, case: &str, more: Moments| {
+        let back = up.quantize(Format::signed(12, frac), HalfEven, Proved);
+        check(&recording, back, moments(0.5, 1.0, 2.0).times(4.0).plus(more), case);
+    };
+    of(2, "two zeros", Moments::default());
+    of(1, "two zeros and a bit", Moments::of_rounding(HalfEven, 1, 0.5));
+}
