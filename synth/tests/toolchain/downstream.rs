@@ -7,27 +7,38 @@ use hapticore_synth::tools::{Tools, root};
 use std::fs;
 use std::path::Path;
 
-/// A copy of `rtl/verilog/`, as a user would have it, in which things may be left and changed.
+/// What users have of `rtl/verilog/`; beside it may lie what they have built.
+const USERS: [&str; 7] =
+    ["Makefile", "hapticore.core", "cocotb", "vectors", "small", "standard", "loop"];
+
+/// A copy, in which things may be left and changed.
 fn copy(from: &Path, to: &Path) {
+    if !from.is_dir() {
+        fs::copy(from, to).expect("a file");
+        return;
+    }
     fs::create_dir_all(to).expect("a folder");
     for entry in fs::read_dir(from).expect("a folder").flatten() {
-        let target = to.join(entry.file_name());
-        match entry.path().is_dir() {
-            true => copy(&entry.path(), &target),
-            false => drop(fs::copy(entry.path(), target).expect("a file")),
-        }
+        copy(&entry.path(), &to.join(entry.file_name()));
     }
 }
 
 /// Runs what depends on nothing but the users' files and how this test runs them.
 fn once(what: &str, check: fn()) {
-    let files = ["rtl/verilog", "synth/tests/toolchain/downstream.rs"];
-    Subject::new().and(what).and_files(&files).holds(&format!("downstream: {what}"), check);
+    let files = USERS.map(|name| format!("rtl/verilog/{name}"));
+    let files: Vec<&str> = files.iter().map(String::as_str).collect();
+    Subject::new()
+        .and(what)
+        .and_files(&files)
+        .and_files(&["synth/tests/toolchain/downstream.rs"])
+        .holds(&format!("downstream: {what}"), check);
 }
 
 fn users_copy() -> tempfile::TempDir {
     let folder = tempfile::tempdir().expect("a folder");
-    copy(&root().join("rtl/verilog"), folder.path());
+    for name in USERS {
+        copy(&root().join("rtl/verilog").join(name), &folder.path().join(name));
+    }
     folder
 }
 
