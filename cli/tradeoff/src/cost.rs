@@ -50,14 +50,14 @@ impl Cost {
 
     /// Estimated flip-flops of a family.
     pub fn flip_flops_of(&self, family: Family) -> f64 {
-        let [ecp5, ice40] = FLIP_FLOPS;
-        self.flip_flops * if family == Family::Ecp5 { ecp5 } else { ice40 }
+        let [per_bit, every] = FLIP_FLOPS[usize::from(family == Family::Ice40)];
+        per_bit * self.flip_flops + every
     }
 }
 
-/// Flip-flops that synthesis makes of a bit of a register, on ECP5 and on iCE40: fitted as [`LUTS`]. Multipliers and block RAMs
-/// of an iCE40 take some in; on an ECP5 some are there twice.
-const FLIP_FLOPS: [f64; 2] = [1.045, 0.84];
+/// Flip-flops by bits of registers, and those of every core, on ECP5 and on iCE40: fitted to half of the cores that [`LUTS`] are judged
+/// on. Multipliers and block RAMs of an iCE40 take some registers in.
+const FLIP_FLOPS: [[f64; 2]; 2] = [[1.006, 71.7], [0.791, 102.8]];
 
 /// The family that a profile is for: that with multipliers as wide as it says.
 pub fn family(profile: &Profile) -> Family {

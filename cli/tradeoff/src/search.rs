@@ -157,7 +157,6 @@ fn least(models: &[Model]) -> [f64; 3] {
 }
 
 /// A profile that was run.
-#[derive(Clone)]
 struct Verified {
     point: Point,
     judged: Judged,

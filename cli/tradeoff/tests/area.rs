@@ -42,7 +42,7 @@ fn areas_are_those_of_synthesis() {
     assert!(rows.len() >= 100, "{} runs of synthesis", rows.len());
     for family in Family::ALL {
         check(&rows, family, "luts", |of, family| of.luts_of(family), [5.0, 12.0]);
-        check(&rows, family, "registers", |of, family| of.flip_flops_of(family), [2.0, 6.0]);
+        check(&rows, family, "registers", |of, family| of.flip_flops_of(family), [2.0, 4.0]);
     }
 }
 
