@@ -179,7 +179,7 @@ impl Replay {
 
     /// Runs all slots; the samples left over at the end.
     fn run(&mut self, slots: &mut Slots<'_>, quiet: bool) -> Result<usize> {
-        let bar = progress::bar(None, quiet);
+        let bar = progress::bar(None, "slots", quiet);
         while let Some(cut) = slots.next_slot()? {
             self.slot(cut)?;
             bar.inc(1);

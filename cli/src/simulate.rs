@@ -220,7 +220,11 @@ fn simulate(
 ) -> Result<(Record, Capture)> {
     let start = Instant::now();
     let settings = settings(args);
-    let bar = progress::bar(Some(cases.iter().map(|case| case.slots as u64).sum()), args.core.json);
+    let bar = progress::bar(
+        Some(cases.iter().map(|case| case.slots as u64).sum()),
+        "slots",
+        args.core.json,
+    );
     let tick = || bar.inc(1);
     let outcomes = match recorder.as_deref_mut() {
         Some(recorder) => vec![cases[0].run(&settings, Some(recorder), &tick)?],

@@ -74,21 +74,21 @@ fn store_of(places: &SweepPlaces) -> PathBuf {
     places.store.clone().unwrap_or_else(|| Path::new("out/sweep").join(named).join("store"))
 }
 
-fn work<'a>(store: &'a Store, plan: &'a Plan) -> Result<Work<'a>> {
-    let (work, torn) = Work::new(store, plan)?;
-    for message in torn {
+fn warn_of_torn(work: &Work) {
+    for message in work.torn() {
         console::warn(&format!("{message}; the part is put aside, its other points are kept"));
     }
-    Ok(work)
 }
 
 fn run_plan(places: &Places, threads: Option<u16>) -> Result<bool> {
-    let work = work(&places.store, &places.plan)?;
-    let missing = work.missing(0..places.plan.len());
-    let bar = progress::bar_of(missing.len() as u64, "points", places.json);
+    let work = Work::new(&places.store, &places.plan)?;
+    let missing = work.missing(0..places.plan.len())?;
+    warn_of_torn(&work);
+    let bar = progress::bar(Some(missing.len() as u64), "points", places.json);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0).into()).build()?;
     let ran = pool.install(|| work.run_all(&missing, &|| bar.inc(1)));
     bar.finish_and_clear();
+    warn_of_torn(&work);
     ran.map_err(|error| stopped(error, &places.store))?;
     collect(places)
 }
@@ -102,7 +102,9 @@ fn stopped(error: anyhow::Error, store: &Store) -> anyhow::Error {
 }
 
 fn list(places: &Places) -> Result<bool> {
-    let chunks = work(&places.store, &places.plan)?.chunks();
+    let work = Work::new(&places.store, &places.plan)?;
+    let chunks = work.chunks();
+    warn_of_torn(&work);
     for chunk in chunks.map_err(|error| stopped(error, &places.store))? {
         say!("{}", chunk.text());
     }
@@ -127,7 +129,9 @@ fn run_line(store: &Store, line: &str) -> Result<()> {
     let chunk = Chunk::read(line)?;
     let plan = store.plan(&chunk.plan)?;
     plan.check_program()?;
-    let ran = work(store, &plan)?.run_chunk(&chunk, &|| ());
+    let work = Work::new(store, &plan)?;
+    let ran = work.run_chunk(&chunk, &|| ());
+    warn_of_torn(&work);
     ran.map(drop).map_err(|error| stopped(error, store))
 }
 

@@ -69,7 +69,7 @@ pub fn run(args: &TradeoffArgs) -> Result<bool> {
     let output = Output::new(&args.out)?;
     let trial = Trial::new(scenes, profile, args.slots);
     let plan = trial.plan();
-    let bar = progress::bar_of(plan.len() as u64, "profiles", args.json);
+    let bar = progress::bar(Some(plan.len() as u64), "profiles", args.json);
     let points = trial.run(&plan, &|| bar.inc(1))?;
     bar.finish_and_clear();
     let family = args.family.as_deref().and_then(cost::named);
@@ -117,7 +117,7 @@ fn synthesised(
 ) -> Result<Vec<Synthesised>> {
     let mut cores = vec![(profile, &itself.cost)];
     cores.extend(found.map(|found| (&found.profile, &found.cost)));
-    let bar = progress::bar_of(cores.len() as u64, "cores synthesised", quiet);
+    let bar = progress::bar(Some(cores.len() as u64), "cores synthesised", quiet);
     let mut all = Vec::new();
     for (profile, cost) in cores {
         interrupt::check()?;

@@ -103,9 +103,9 @@ impl AtomicFile {
 ///
 /// # Errors
 /// It cannot be written; then an older one stays as it was.
-pub fn write(path: &Path, text: &str) -> io::Result<()> {
+pub fn write(path: &Path, bytes: impl AsRef<[u8]>) -> io::Result<()> {
     let partial = AtomicFile::create(path)?;
-    partial.reopen()?.write_all(text.as_bytes())?;
+    partial.reopen()?.write_all(bytes.as_ref())?;
     partial.persist()
 }
 

@@ -107,7 +107,7 @@ pub fn trace(
     let slots = slots(case, window)?;
     let name = format!("waves.{}", kind.extension());
     let wave = kind.create(&folder.join(&name))?;
-    let bar = progress::bar(Some(slots.end), quiet);
+    let bar = progress::bar(Some(slots.end), "slots", quiet);
     let (trace, view) = match case.tuning(&case.plant()?)? {
         None => (open::trace(case, &slots, wave, &bar)?, "slot"),
         Some(tuning) => (closed::trace(case, &tuning, &slots, wave, &bar)?, "force_loop"),

@@ -9,8 +9,7 @@ use anyhow::{Context, Result, bail};
 use serde::{Deserialize, Serialize};
 
 use crate::canonical;
-use crate::plan::Plan;
-use crate::run::{Benches, Runner};
+use crate::result::Line;
 use crate::store::{Store, write};
 
 /// A plan's first point as a host runs it.
@@ -32,11 +31,12 @@ impl Reference {
     }
 }
 
-/// Checks this host and program against the store's reference of a plan; it is run once for each.
+/// Checks this host and program against the store's reference of a plan, a first point that `run` gives;
+/// it is run once for each.
 ///
 /// # Errors
 /// Other bytes: both hosts are named. A file that cannot be written, an interruption.
-pub fn check(store: &Store, plan: &Plan, name: &str) -> Result<()> {
+pub fn check(store: &Store, name: &str, run: impl FnOnce() -> Result<Line>) -> Result<()> {
     let folder = store.folder().join("hosts").join(&name[..16]);
     fs::create_dir_all(&folder).with_context(|| folder.display().to_string())?;
     let (host, program) = (host(), program());
@@ -44,10 +44,7 @@ pub fn check(store: &Store, plan: &Plan, name: &str) -> Result<()> {
     let own = match read(&path) {
         Some(known) => known,
         None => {
-            let names = plan.names();
-            let benches = Benches::default();
-            let (line, _) = Runner::new(plan, &names, &benches).run(&plan.point(0))?;
-            let own = Reference { host, program, line: line.text() };
+            let own = Reference { host, program, line: run()?.text() };
             write(&path, &canonical::text(&own))?;
             own
         }

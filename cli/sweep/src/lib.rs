@@ -12,7 +12,7 @@
 //! | [`point`] | a plan's points and their names |
 //! | [`canonical`] | canonical JSON and its hash |
 //! | [`run`], [`result`](mod@result) | a point run; the line that it leaves |
-//! | [`store`] | the folder of results |
+//! | [`store`], `index`, `claim` | the folder of results; the points of each part; chunks that a runner is at |
 //! | [`host`] | whether a host makes the same bytes as others |
 //! | [`work`] | chunks of points, run on all threads or one at a time |
 //! | [`collect`] | results sorted, missing and failed points, the Pareto front |
@@ -21,10 +21,12 @@
 
 pub mod axis;
 pub mod canonical;
+mod claim;
 pub mod collect;
 pub mod engines;
 mod file;
 pub mod host;
+mod index;
 #[cfg(feature = "parquet")]
 mod parquet;
 pub mod plan;

@@ -2,7 +2,7 @@
 //! A plan: scene, profile, and what of both is varied.
 //!
 //! ```toml
-//! scene = "fig3"                  # a bundled name or a file
+//! scene = "fig3"                  # a bundled name or a file, relative to the plan
 //! case = "rest"                   # default: the scene's first
 //! profile = "standard"            # a bundled name or a file; default: the scene's
 //! fidelity = "fixed"              # float or fixed; default fixed
@@ -29,6 +29,7 @@
 //! iq = { from = 18, to = 26 }
 //! ```
 
+use std::collections::HashSet;
 use std::path::Path;
 
 use anyhow::{Context, Result, anyhow, bail, ensure};
@@ -37,8 +38,9 @@ use hapticore_hdl::verilog::Design;
 use hapticore_host::text::read;
 use hapticore_run::inputs;
 use hapticore_scene::{Place, Scene, SceneError, gallery};
+use hapticore_tradeoff::bench::is_same_bench;
 use hapticore_tradeoff::cost::netlist;
-use hapticore_tradeoff::loops::controlled;
+use hapticore_tradeoff::loops::{controlled, is_loop, is_same_loop};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
@@ -123,9 +125,9 @@ impl Plan {
     fn of(file: &File, lines: &Lines) -> Result<Plan> {
         let scene_text = scene_text(file, lines)?;
         let scene = Scene::parse(&scene_text.text, &scene_text.file, &[])?;
-        let profile = file.profile.as_ref().map_or(&scene.profile, |name| name.get_ref());
-        let profile =
-            inputs::profile(profile).with_context(|| lines.at(&file.profile, "profile"))?;
+        let named = file.profile.as_ref().map(|name| beside(lines.name(), name.get_ref()));
+        let profile = inputs::profile(named.as_ref().unwrap_or(&scene.profile))
+            .with_context(|| lines.at(&file.profile, "profile"))?;
         let case = match &file.case {
             None => scene.cases[0].name.clone(),
             Some(case) => {
@@ -147,7 +149,36 @@ impl Plan {
             points: file.points(lines)?,
         };
         plan.check(lines)?;
-        Ok(plan)
+        Ok(plan.slowest_first())
+    }
+
+    /// The axes of a grid in an order in which neighbours share plant and calibration: first those of the
+    /// scene, then those of the profile that a bench depends on, then words.
+    fn slowest_first(mut self) -> Plan {
+        let moving: HashSet<String> = self.bench_keys().into_iter().collect();
+        if let Points::Grid(axes) = &mut self.points {
+            axes.sort_by_key(|axis| (axis.side == Side::Profile, !moving.contains(&axis.key)));
+        }
+        self
+    }
+
+    /// Keys of the profile's axes that plant, calibration or ideal core depend on.
+    pub(crate) fn bench_keys(&self) -> Vec<String> {
+        let looped = self.scene_with(&Settings::new()).is_ok_and(|scene| {
+            scene.cases.iter().any(|case| case.name == self.case && is_loop(case))
+        });
+        let is_same = |turned: &Profile| match looped {
+            true => is_same_loop(&self.profile, &self.profile, turned),
+            false => is_same_bench(&self.profile, turned),
+        };
+        let moves = |axis: &&Axis| {
+            let turned = axis.values.examples().into_iter().map(|value| {
+                settings::turned(&self.profile, &Settings::from([(axis.key.clone(), value)]))
+            });
+            turned.flatten().any(|turned| !is_same(&turned))
+        };
+        let of_profile = self.axes().iter().filter(|axis| axis.side == Side::Profile);
+        of_profile.filter(moves).map(|axis| axis.key.clone()).collect()
     }
 
     /// Tries values of each axis by themselves, which names their line as a point that fails could not.
@@ -222,13 +253,22 @@ fn core_hash(profile: &Profile) -> Result<String> {
 }
 
 fn scene_text(file: &File, lines: &Lines) -> Result<SceneText> {
-    let name = file.scene.get_ref();
+    let name = &beside(lines.name(), file.scene.get_ref());
     if let Some(text) = gallery::find(name) {
         return Ok(SceneText { file: format!("{name}.toml"), text: text.into() });
     }
     // As every command, with its message where it is neither.
     inputs::scene(name, &[]).with_context(|| lines.at(&Some(file.scene.clone()), "scene"))?;
     Ok(SceneText { file: name.clone(), text: read(Path::new(name))? })
+}
+
+/// A file that a plan names, whose path is relative to the plan's own folder; any other name as it is.
+fn beside(plan: &str, name: &str) -> String {
+    let path = Path::new(plan).parent().unwrap_or(Path::new("")).join(name);
+    match name.contains(['/', '\\', '.']) || path.is_file() {
+        true => path.display().to_string(),
+        false => name.into(),
+    }
 }
 
 fn known_case(scene: &Scene, name: &str) -> Result<String> {

@@ -77,6 +77,16 @@ impl Plan {
         point
     }
 
+    /// Orders points so that those which share plant and calibration are neighbours.
+    pub fn group_by_bench(&self, points: &mut [usize]) {
+        let keys = self.bench_keys();
+        points.sort_by_cached_key(|index| {
+            let Point { seed, profile, scene, .. } = self.point(*index);
+            let moving: Vec<_> = keys.iter().map(|key| profile.get(key)).collect();
+            canonical::text(&(seed, scene, moving))
+        });
+    }
+
     /// What the points are called.
     ///
     /// # Panics

@@ -4,12 +4,15 @@
 //!
 //! | folder | holds |
 //! | --- | --- |
-//! | `plans/` | plans that were run, by their name, with all that they need |
+//! | `plans/` | plans that were run, by their name, with all that they need, and how many points make a chunk |
 //! | `parts/` | results, a line per point; a part is named by its points |
+//! | `index/` | the points of each part, so that a chunk need not read what it does not ask for |
 //! | `times/` | how long they took, by the same name |
+//! | `claims/` | chunks that some runner is at |
 //! | `hosts/` | the reference point of each plan as each host runs it |
 
 use std::collections::BTreeMap;
+use std::fmt::Display;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -19,6 +22,8 @@ use hapticore_files::AtomicFile;
 use rayon::prelude::*;
 
 use crate::canonical;
+use crate::claim::Claim;
+use crate::index::{self, Asked};
 use crate::plan::Plan;
 use crate::result::{Line, Times};
 
@@ -49,10 +54,10 @@ pub struct Torn {
 }
 
 /// A part as it was read.
-struct Part {
+pub(crate) struct Part {
     path: PathBuf,
-    lines: Vec<Line>,
-    torn: Option<Torn>,
+    pub lines: Vec<Line>,
+    pub torn: Option<Torn>,
 }
 
 impl Store {
@@ -62,7 +67,7 @@ impl Store {
     /// # Errors
     /// It cannot be made.
     pub fn open(folder: &Path) -> Result<Store> {
-        for name in ["plans", "parts", "times", "hosts"] {
+        for name in ["plans", "parts", "index", "times", "hosts", "claims"] {
             let path = folder.join(name);
             fs::create_dir_all(&path).with_context(|| path.display().to_string())?;
             hapticore_files::clear(&path);
@@ -114,8 +119,48 @@ impl Store {
         let name = &canonical::name(&keys)[..32];
         let text: String = lines.iter().map(|line| line.text() + "\n").collect();
         let of_times: String = times.iter().map(|of| canonical::text(of) + "\n").collect();
+        let part = self.folder.join("parts").join(format!("{name}.jsonl"));
         write(&self.folder.join("times").join(format!("{name}.jsonl")), &of_times)?;
-        write(&self.folder.join("parts").join(format!("{name}.jsonl")), &text)
+        let keys = lines.iter().map(|line| &*line.key);
+        write(&index::path(&self.folder, &part), index::bytes(text.len() as u64, keys))?;
+        write(&part, &text)
+    }
+
+    /// The number of points of a plan's chunks, where it has been chosen.
+    pub fn chunk_points(&self, plan: &str) -> Option<usize> {
+        fs::read_to_string(self.chunk_path(plan)).ok()?.trim().parse().ok().filter(|of| *of > 0)
+    }
+
+    /// Chooses the number of points of a plan's chunks, for every runner of the store.
+    ///
+    /// # Errors
+    /// It cannot be written.
+    pub fn choose_chunk_points(&self, plan: &str, points: usize) -> Result<()> {
+        write(&self.chunk_path(plan), format!("{points}\n"))
+    }
+
+    fn chunk_path(&self, plan: &str) -> PathBuf {
+        self.folder.join("plans").join(format!("{plan}.chunk"))
+    }
+
+    /// The claim of what a name stands for within a plan.
+    ///
+    /// # Errors
+    /// As [`Claim::take`].
+    pub fn claim(&self, plan: &str, name: impl Display) -> Result<Option<Claim>> {
+        Claim::take(&self.claim_path(plan, name))
+    }
+
+    /// As [`Store::claim`], as soon as no other runner has it.
+    ///
+    /// # Errors
+    /// As [`Claim::wait`].
+    pub fn wait_for_claim(&self, plan: &str, name: impl Display) -> Result<Claim> {
+        Claim::wait(&self.claim_path(plan, name))
+    }
+
+    fn claim_path(&self, plan: &str, name: impl Display) -> PathBuf {
+        self.folder.join("claims").join(format!("{plan:.16}-{name}.claim"))
     }
 
     /// All that is in it.
@@ -123,7 +168,24 @@ impl Store {
     /// # Errors
     /// A file that cannot be read; two results of one point that differ.
     pub fn contents(&self) -> Result<Contents> {
-        let paths = self.files("parts")?;
+        Store::read(self.files("parts")?)
+    }
+
+    /// What the parts hold that hold any of some points.
+    ///
+    /// # Errors
+    /// As [`Store::contents`]; an index that cannot be written.
+    pub fn contents_about<'b>(&self, keys: impl Iterator<Item = &'b str>) -> Result<Contents> {
+        let asked = Asked::new(keys);
+        let holds = |path: &PathBuf| {
+            let index = index::path(&self.folder, path);
+            let held = index::holds_any(path, &index, &asked);
+            held.map(|held| held.then(|| path.clone())).transpose()
+        };
+        Store::read(self.files("parts")?.par_iter().filter_map(holds).collect::<Result<_>>()?)
+    }
+
+    fn read(paths: Vec<PathBuf>) -> Result<Contents> {
         let parts = paths.into_par_iter().map(Part::read).collect::<Result<Vec<_>>>()?;
         let (mut contents, mut from) = (Contents::default(), BTreeMap::new());
         for Part { path, lines, torn } in parts {
@@ -186,7 +248,7 @@ impl Store {
 }
 
 impl Part {
-    fn read(path: PathBuf) -> Result<Part> {
+    pub fn read(path: PathBuf) -> Result<Part> {
         let bytes = fs::read(&path).with_context(|| path.display().to_string())?;
         let (mut lines, mut good, mut wrong) = (Vec::new(), String::new(), None);
         for (n, bytes) in bytes.split_inclusive(|byte| *byte == b'\n').enumerate() {
@@ -218,6 +280,6 @@ fn copy(from: &Path, to: &Path) -> io::Result<()> {
 }
 
 /// Writes a file whole or not at all.
-pub(crate) fn write(path: &Path, text: &str) -> Result<()> {
-    hapticore_files::write(path, text).map_err(|error| anyhow!("{}: {error}", path.display()))
+pub(crate) fn write(path: &Path, bytes: impl AsRef<[u8]>) -> Result<()> {
+    hapticore_files::write(path, bytes).map_err(|error| anyhow!("{}: {error}", path.display()))
 }

@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Work: chunks of a plan's points, each of some seconds, run and stored.
 
-use std::collections::HashSet;
+use std::collections::{BTreeMap, HashSet};
 use std::ops::Range;
-use std::time::Instant;
+use std::sync::{Mutex, PoisonError};
+use std::time::Duration;
 
 use anyhow::{Context, Result, ensure};
+use cpu_time::ThreadTime;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
+use crate::claim::Claim;
 use crate::plan::Plan;
 use crate::point::Names;
 use crate::run::{Benches, Runner};
-use crate::store::{Contents, Store};
+use crate::store::Store;
 use crate::{canonical, host};
 
 /// A chunk of a plan: what one call of an engine runs, one line of JSON.
@@ -27,10 +30,10 @@ pub struct Chunk {
     pub count: usize,
 }
 
-/// How long a chunk should take at least, s: an engine's own cost per call is some tenths of it.
+/// How much processor time a chunk should take at least, s: an engine's own cost per call is some tenths of it.
 const CHUNK_S: f64 = 5.0;
-/// How long points are run to see how long they take, s, and how many at most.
-const PROBE_S: f64 = 0.5;
+/// How long points are run to see how long they take, and how many at most.
+const PROBE: Duration = Duration::from_millis(500);
 const MOST_PROBED: usize = 64;
 /// Chunks for each thread, at least, so that all end at about the same time.
 const SHARE: usize = 4;
@@ -59,37 +62,41 @@ pub struct Work<'a> {
     plan_name: String,
     names: Names,
     benches: Benches,
-    /// Points that have their line.
-    present: HashSet<String>,
+    /// What was wrong with parts that have been put aside.
+    torn: Mutex<Vec<String>>,
 }
 
 impl<'a> Work<'a> {
-    /// A plan in a store, which keeps it. Parts that cannot be read are put aside; what was wrong with
-    /// them.
+    /// A plan in a store, which keeps it.
+    ///
+    /// # Errors
+    /// A store that cannot be written.
+    pub fn new(store: &'a Store, plan: &'a Plan) -> Result<Work<'a>> {
+        let plan_name = store.keep_plan(plan)?;
+        let (names, benches, torn) = (plan.names(), Benches::default(), Mutex::default());
+        Ok(Work { store, plan, plan_name, names, benches, torn })
+    }
+
+    /// What was wrong with parts that could not be read and were put aside.
+    pub fn torn(&self) -> Vec<String> {
+        self.torn.lock().unwrap_or_else(PoisonError::into_inner).drain(..).collect()
+    }
+
+    /// The points without a line, in the plan's order; of equal ones, as draws may give, the first. Parts
+    /// that cannot be read are put aside.
     ///
     /// # Errors
     /// A store that cannot be read or written.
-    pub fn new(store: &'a Store, plan: &'a Plan) -> Result<(Work<'a>, Vec<String>)> {
-        let plan_name = store.keep_plan(plan)?;
-        let Contents { lines, torn } = store.contents()?;
-        store.mend(&torn)?;
-        let present = lines.into_keys().collect();
-        let (names, benches) = (plan.names(), Benches::default());
-        let work = Work { store, plan, plan_name, names, benches, present };
-        Ok((work, torn.into_iter().map(|torn| torn.message).collect()))
-    }
-
-    /// The points without a line, in the plan's order; of equal ones, as draws may give, the first.
-    pub fn missing(&self, from: Range<usize>) -> Vec<usize> {
+    pub fn missing(&self, from: Range<usize>) -> Result<Vec<usize>> {
         let named = |index: usize| (index, self.names.of(&self.plan.point(index)));
         let all: Vec<(usize, String)> = from.into_par_iter().map(named).collect();
-        let (mut seen, mut missing) = (HashSet::new(), Vec::new());
-        for (index, key) in all.iter().filter(|(_, key)| !self.present.contains(key)) {
-            if seen.insert(key) {
-                missing.push(*index);
-            }
-        }
-        missing
+        let present = self.store.contents_about(all.iter().map(|(_, key)| &**key))?;
+        self.store.mend(&present.torn)?;
+        let messages = present.torn.into_iter().map(|torn| torn.message);
+        self.torn.lock().unwrap_or_else(PoisonError::into_inner).extend(messages);
+        let mut seen = HashSet::new();
+        let mut is_missing = |key| !present.lines.contains_key(key) && seen.insert(key);
+        Ok(all.iter().filter_map(|(index, key)| is_missing(key).then_some(*index)).collect())
     }
 
     /// Runs points one after the other, as long as `more` says so, and stores them; how many.
@@ -101,10 +108,10 @@ impl<'a> Work<'a> {
     fn run(
         &self,
         points: &[usize],
-        more: impl Fn() -> bool,
+        mut more: impl FnMut() -> bool,
         progress: &(dyn Fn() + Sync),
     ) -> Result<usize> {
-        let mut runner = Runner::new(self.plan, &self.names, &self.benches);
+        let mut runner = self.runner();
         let (mut lines, mut times) = (Vec::new(), Vec::new());
         let mut run = |index: &usize| -> Result<()> {
             let (line, time) = runner.run(&self.plan.point(*index))?;
@@ -120,6 +127,10 @@ impl<'a> Work<'a> {
         ended.map(|()| lines.len())
     }
 
+    fn runner(&self) -> Runner<'_> {
+        Runner::new(self.plan, &self.names, &self.benches)
+    }
+
     /// Runs a chunk's points that have no line; how many.
     ///
     /// # Errors
@@ -132,14 +143,31 @@ impl<'a> Work<'a> {
             "expected a chunk within the plan's {} points, got {range:?}",
             self.plan.len()
         );
-        let missing = self.missing(range);
+        let claim = self.store.wait_for_claim(&self.plan_name, chunk.first)?;
+        self.run_claimed(range, &claim, progress)
+    }
+
+    fn run_claimed(
+        &self,
+        range: Range<usize>,
+        _: &Claim,
+        progress: &(dyn Fn() + Sync),
+    ) -> Result<usize> {
+        // What another runner has stored until now counts.
+        let mut missing = self.missing(range)?;
         if !missing.is_empty() {
-            host::check(self.store, self.plan, &self.plan_name)?;
+            self.check_host()?;
         }
+        self.plan.group_by_bench(&mut missing);
         self.run(&missing, || true, progress)
     }
 
-    /// Runs all that is missing on all threads of the pool that this is called in.
+    fn check_host(&self) -> Result<()> {
+        host::check(self.store, &self.plan_name, || Ok(self.runner().run(&self.plan.point(0))?.0))
+    }
+
+    /// Runs all that is missing on all threads of the pool that this is called in. Chunks that another
+    /// runner is at are left to it; they are run here as well where it ends without them.
     ///
     /// # Errors
     /// As [`Work::run_chunk`]; what other chunks have stored stays.
@@ -147,57 +175,75 @@ impl<'a> Work<'a> {
         if missing.is_empty() {
             return Ok(());
         }
-        host::check(self.store, self.plan, &self.plan_name)?;
-        let (probed, size) = self.probe(missing, progress)?;
-        let left = &missing[probed..];
-        let most = left.len().div_ceil(SHARE * rayon::current_num_threads());
-        let chunks: Vec<_> = left.chunks(size.min(most).max(1)).collect();
-        let run = |chunk: &[usize]| self.run(chunk, || true, progress).map(drop);
-        chunks.into_par_iter().with_max_len(1).try_for_each(run)
+        self.check_host()?;
+        let share = self.plan.len().div_ceil(SHARE * rayon::current_num_threads());
+        let size = self.chunk_points(missing, share)?;
+        let mut chunks: BTreeMap<usize, usize> = BTreeMap::new();
+        missing.iter().for_each(|index| *chunks.entry(index / size * size).or_default() += 1);
+        let run = |(first, asked): (usize, usize), claim: Claim| -> Result<()> {
+            let end = self.plan.len().min(first + size);
+            let ran = self.run_claimed(first..end, &claim, progress)?;
+            // The others are there by now.
+            (ran..asked).for_each(|_| progress());
+            Ok(())
+        };
+        let run_or_leave =
+            |chunk: (usize, usize)| match self.store.claim(&self.plan_name, chunk.0)? {
+                Some(claim) => run(chunk, claim).map(|()| None),
+                None => Ok(Some(chunk)),
+            };
+        let chunks: Vec<_> = chunks.into_iter().collect();
+        let left = chunks.into_par_iter().with_max_len(1).map(run_or_leave);
+        let left: Vec<_> = left.collect::<Result<_>>()?;
+        left.into_iter()
+            .flatten()
+            .try_for_each(|chunk| run(chunk, self.store.wait_for_claim(&self.plan_name, chunk.0)?))
     }
 
-    /// Runs the first points to see how long one takes; how many were run, and how many make a chunk.
-    fn probe(&self, missing: &[usize], progress: &(dyn Fn() + Sync)) -> Result<(usize, usize)> {
-        let start = Instant::now();
-        let more = || start.elapsed().as_secs_f64() < PROBE_S;
-        let few = &missing[..missing.len().min(MOST_PROBED)];
-        let count = self.run(few, more, progress)?;
-        let each_s = start.elapsed().as_secs_f64() / count as f64;
-        Ok((count, (CHUNK_S / each_s).ceil().clamp(1.0, 1e6) as usize))
+    /// How many points make a chunk: what the store's first runner has found, at most `most`.
+    fn chunk_points(&self, missing: &[usize], most: usize) -> Result<usize> {
+        let _claim = self.store.wait_for_claim(&self.plan_name, "size")?;
+        if let Some(known) = self.store.chunk_points(&self.plan_name) {
+            return Ok(known);
+        }
+        let points = self.probe(missing)?.min(most).max(1);
+        self.store.choose_chunk_points(&self.plan_name, points)?;
+        Ok(points)
     }
 
-    /// The plan as chunks, by how long its points took so far; the first ones are run where nothing is
-    /// known.
+    /// Runs some points to see how many make a chunk by processor time.
+    fn probe(&self, missing: &[usize]) -> Result<usize> {
+        let mut starts = Vec::new();
+        let more = || {
+            starts.push(ThreadTime::now());
+            starts.len() < 3 || starts[1].elapsed() < PROBE
+        };
+        let count = self.run(&missing[..missing.len().min(MOST_PROBED)], more, &|| ())?;
+        // The first point makes what the others share.
+        let (from, points) = if count > 1 { (starts[1], count - 1) } else { (starts[0], 1) };
+        let each_s = from.elapsed().as_secs_f64() / points as f64;
+        Ok((CHUNK_S / each_s.max(1e-6)).ceil() as usize)
+    }
+
+    /// The plan as chunks.
     ///
     /// # Errors
     /// As [`Work::run_chunk`].
     pub fn chunks(&self) -> Result<Vec<Chunk>> {
-        let all: Vec<usize> = self.missing(0..self.plan.len());
-        let size = match (self.seconds_each()?, all.is_empty()) {
-            (Some(each_s), _) => (CHUNK_S / each_s).ceil().clamp(1.0, 1e6) as usize,
-            (None, true) => self.plan.len(),
-            (None, false) => {
-                host::check(self.store, self.plan, &self.plan_name)?;
-                self.probe(&all, &|| ())?.1
+        let count = self.plan.len();
+        let missing = self.missing(0..count)?;
+        let size = match missing.is_empty() {
+            true => self.store.chunk_points(&self.plan_name).unwrap_or(count),
+            false => {
+                self.check_host()?;
+                self.chunk_points(&missing, count)?
             }
         };
-        let count = self.plan.len();
         let chunk = |first: usize| Chunk {
             plan: self.plan_name.clone(),
             first,
             count: size.min(count - first),
         };
         Ok((0..count).step_by(size).map(chunk).collect())
-    }
-
-    /// What the plan's points took so far, on average, s; none where none was run.
-    fn seconds_each(&self) -> Result<Option<f64>> {
-        let times = self.store.times()?;
-        let own = (0..self.plan.len()).into_par_iter().filter_map(|index| {
-            let key = self.names.of(&self.plan.point(index));
-            times.get(&key).map(|times| (times.seconds, 1.0))
-        });
-        let (sum, count) = own.reduce(|| (0.0, 0.0), |a, b| (a.0 + b.0, a.1 + b.1));
-        Ok((count > 0.0).then(|| (sum / count).max(1e-6)))
     }
 }

@@ -51,19 +51,9 @@ impl Bench {
         })
     }
 
-    /// Whether plant, position table and ideal estimator are the same for another profile, to the
-    /// bit.
+    /// Whether another profile can be tried on it.
     pub fn suits(&self, profile: &Profile) -> bool {
-        let of = |p: &Profile| {
-            (
-                (p.slot.clone(), p.terminals.clone(), p.pads),
-                (p.carrier.method, p.carrier.window, p.carrier.periods),
-                (p.position.clone(), p.formats.table, p.formats.position),
-                // Gain and force table are counted in the square's gain, that of the window's words.
-                (p.capacitance, p.haptic, p.force, p.square_gain().to_bits()),
-            )
-        };
-        of(&self.of) == of(profile)
+        is_same_bench(&self.of, profile)
     }
 
     /// The profile as the scene's device and pads have it.
@@ -114,4 +104,18 @@ impl Bench {
     pub fn seconds(&self) -> f64 {
         self.seconds
     }
+}
+
+/// Whether plant, position table and ideal estimator are the same for two profiles, to the bit.
+pub fn is_same_bench(one: &Profile, other: &Profile) -> bool {
+    let of = |p: &Profile| {
+        (
+            (p.slot.clone(), p.terminals.clone(), p.pads),
+            (p.carrier.method, p.carrier.window, p.carrier.periods),
+            (p.position.clone(), p.formats.table, p.formats.position),
+            // Gain and force table are counted in the square's gain, that of the window's words.
+            (p.capacitance, p.haptic, p.force, p.square_gain().to_bits()),
+        )
+    };
+    of(one) == of(other)
 }

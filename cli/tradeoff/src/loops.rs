@@ -131,7 +131,7 @@ impl LoopBench {
 
     /// Whether the ideal core is the same for another profile.
     pub fn suits(&self, profile: &Profile) -> bool {
-        self.of == with_words(profile, &self.words)
+        is_same_loop(&self.words, &self.of, profile)
     }
 
     /// What a profile's core makes of the case.
@@ -204,6 +204,11 @@ impl LoopBench {
 /// Whether a core flags what it says of a slot.
 pub fn is_flagged(row: &Row) -> bool {
     ["invalid", "clipped", "saturated"].iter().any(|flag| row.flags.contains(flag))
+}
+
+/// Whether the ideal core, which is given the formats of `words`, is the same for two profiles.
+pub fn is_same_loop(words: &Profile, one: &Profile, other: &Profile) -> bool {
+    with_words(one, words) == with_words(other, words)
 }
 
 /// A profile with the formats of another, where both have a controller.

@@ -173,6 +173,42 @@ fn a_killed_sweep_goes_on_where_it_was() {
     assert!(resumed == swept(folder.path(), "whole", &[]));
 }
 
+/// Two programs on one store: each point is run by one of them, whoever comes first.
+#[test]
+fn two_runners_share_the_work_of_a_store() {
+    let plan = PLAN.replace("[13, 15]", "{ from = 10, to = 16, step = 1 }");
+    let folder = folder(&plan.replace("slots = 2", "slots = 50"));
+    let scene = SCENE.replace("title", "dwell_slots = 50\ntitle");
+    fs::write(folder.path().join("mine.toml"), scene).unwrap();
+    let start = |out: &str| {
+        let args = ["sweep", "plan.toml", "--store", "store", "--threads", "2", "--out", out];
+        command(folder.path(), &args).stdout(Stdio::null()).spawn().unwrap()
+    };
+    for mut runner in ["one", "two"].map(start) {
+        assert!(runner.wait().unwrap().success());
+    }
+    let lines = |part: PathBuf| fs::read_to_string(part).unwrap().lines().count();
+    let parts = parts(&folder.path().join("store"));
+    assert_eq!(parts.into_iter().map(lines).sum::<usize>(), 56, "each point once");
+    let claims = fs::read_dir(folder.path().join("store/claims")).unwrap();
+    assert_eq!(claims.count(), 0, "nothing is claimed any more");
+    let of = |out: &str| FILES.map(|name| fs::read(folder.path().join(out).join(name)).unwrap());
+    assert!(of("one") == of("two"));
+}
+
+/// A plan finds its scene and profile beside it, from whatever folder it is run.
+#[test]
+fn paths_of_a_plan_are_relative_to_its_folder() {
+    let folder = folder(PLAN);
+    let whole = swept(folder.path(), "store", &[]);
+    let elsewhere = folder.path().join("elsewhere");
+    fs::create_dir(&elsewhere).unwrap();
+    let args = ["sweep", "../plan.toml", "--store", "../store", "--out", "results"];
+    expect(&elsewhere, &args, 0);
+    let table = fs::read(elsewhere.join("results").join(FILES[0])).unwrap();
+    assert!(table == whole[0], "the same points");
+}
+
 fn parts_or_none(store: &Path) -> usize {
     let entries = fs::read_dir(store.join("parts")).into_iter().flatten().flatten();
     entries.filter(|entry| entry.path().extension().is_some_and(|of| of == "jsonl")).count()

@@ -272,8 +272,13 @@ fn check_whole(folder: &Path) -> [usize; 2] {
                 _ => b"",
             };
             let text = bytes.strip_suffix(b"\n").unwrap_or(&bytes);
-            let cut = end.is_empty() && text.len() == bytes.len();
-            assert!(text.ends_with(end) && !cut, "{} is cut short", path.display());
+            let is_whole = match path.extension().and_then(|of| of.to_str()) {
+                // A head of eight bytes and sixteen for each point; a claim is empty.
+                Some("index") => bytes.len() % 16 == 8,
+                Some("claim") => bytes.is_empty(),
+                _ => text.ends_with(end) && (!end.is_empty() || text.len() < bytes.len()),
+            };
+            assert!(is_whole, "{} is cut short", path.display());
         }
     }
     counts
