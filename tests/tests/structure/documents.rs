@@ -168,6 +168,20 @@ fn architecture_lists_the_crates_of_the_workspace() {
     assert_eq!(listed, members.into_iter().filter(|name| !name.is_empty()).collect());
 }
 
+#[test]
+fn the_readme_repeats_rows_of_the_results_page() {
+    let (readme, results) = (read("README.md"), read("docs/results.md"));
+    let section = readme
+        .split("\n## ")
+        .find(|section| section.starts_with("Measured results\n"))
+        .expect("measured results");
+    let rows: Vec<_> = section.lines().filter(|line| line.starts_with("| ")).collect();
+    for row in &rows {
+        assert!(results.lines().any(|line| line == *row), "docs/results.md has no row {row}");
+    }
+    assert!(rows.len() > 5, "rows are found");
+}
+
 /// Working papers of the developers, which users do not have.
 const ABSENT: [&str; 5] = [
     concat!("PHY", "SICS"),
