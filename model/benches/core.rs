@@ -27,7 +27,7 @@ use std::time::Instant;
 
 const ROUNDS: usize = 7;
 const SLOTS: usize = 200;
-/// The board's clock and sample rate (docs/decisions.md §6).
+/// The board's clock and sample rate (docs/decisions.md §14).
 const BOARD_HZ: f64 = 25e6;
 const SAMPLE_HZ: f64 = 1e6;
 

@@ -69,7 +69,7 @@ pub fn named(name: &str) -> Option<Family> {
     Family::ALL.into_iter().find(|family| family.name() == name)
 }
 
-/// Samples per second of the nominal board (docs/decisions.md §6).
+/// Samples per second of the nominal board (docs/decisions.md §14).
 const SAMPLE_HZ: f64 = 1e6;
 
 /// LUT4 by bits of adders and of selections, and those of every core, on ECP5 and on iCE40: fitted to

@@ -10,7 +10,7 @@
 //! Words are codes as integers, in the formats of [`Field::format`]. The haptic mean square is
 //! always valid and never held. Ratios, position and sheet resistance of a lifted pad are held, since currents so small tell no
 //! place; its capacitance and force are the slot's. Latency: fields + 2 clocks from `start` to the last word. Source:
-//! docs/decisions.md §6 (invalid: last value held).
+//! docs/decisions.md §13 (invalid: last value held).
 
 use super::rests::Rests;
 use hapticore_contract::frame::Field;

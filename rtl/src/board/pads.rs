@@ -11,7 +11,7 @@
 //! | dead   | counter       | held at zero, by compare |
 //!
 //! Latency: one clock to open; one to close, where none was closed in the `dead` clocks before.
-//! Outputs are registers, so that no line glitches. Source: docs/decisions.md §6.
+//! Outputs are registers, so that no line glitches. Source: docs/decisions.md §15.
 
 use super::bits::{previous, word};
 use hapticore_hdl::block;
