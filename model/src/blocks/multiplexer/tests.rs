@@ -37,6 +37,14 @@ fn of_sample(profile: &Profile, n: u64) -> Outputs<i64> {
     }
 }
 
+#[test]
+fn a_pads_number_has_no_spare_bit() {
+    for profile in Profile::all() {
+        let numbers = profile.pads.next_power_of_two().max(2);
+        assert_eq!(Multiplexer::new(&profile).pad().max_code(), i128::from(numbers) - 1);
+    }
+}
+
 /// Also with a strobe in the same cycle, and in any sample of any pad's slot.
 #[test]
 fn clear_drives_no_pad_and_begins_with_the_first_pad() {
