@@ -2,11 +2,8 @@
 //! Random streams named by what they are for, so that no stream depends on how much another was
 //! used.
 
-mod normal;
-
+use rand_distr::{Distribution, StandardNormal};
 use rand_xoshiro::rand_core::SeedableRng;
-
-pub(crate) use normal::{draw, normal};
 
 /// A fast generator of good quality, started afresh for each name.
 pub(crate) type Stream = rand_xoshiro::Xoshiro256PlusPlus;
@@ -58,6 +55,11 @@ impl Purpose {
 pub(crate) fn stream(seed: u64, place: [u64; 2], purpose: Purpose) -> Stream {
     let name = [place[0], place[1], purpose.number()];
     Stream::seed_from_u64(name.into_iter().fold(mix(seed), |hash, part| mix(hash ^ part)))
+}
+
+/// A standard normal number.
+pub(crate) fn normal(random: &mut Stream) -> f64 {
+    StandardNormal.sample(random)
 }
 
 /// Standard normal numbers that belong to the hardware: the same in every case and slot.

@@ -27,7 +27,7 @@ use super::super::spec::{Setting, Spec};
 use crate::device::Device;
 use crate::error::SceneError;
 use crate::format::{Limits, Table};
-use crate::random::{Origin, Purpose, Stream, draw, normal, stream};
+use crate::random::{Origin, Purpose, Stream, normal, stream};
 use crate::terminals::MOST_CHANNELS;
 
 /// Equivalent noise bandwidth of a Hann window, bins.
@@ -83,9 +83,6 @@ pub(in super::super) fn read_dither(root: &Table, _: &Device) -> Result<Option<S
     Ok(Spec::new("sensor.dither", format!("{lsb} LSB"), build))
 }
 
-/// Numbers of white noise that are drawn at a time.
-const DRAWN: usize = 256;
-
 struct Noise {
     /// Standard deviation per sample of each channel.
     sigma: [f64; MOST_CHANNELS],
@@ -125,25 +122,10 @@ impl Noise {
 
     /// White noise of each channel's size.
     fn add_white(&self, run: &Run, random: &mut Stream, samples: &mut [f64]) {
-        let mut numbers = [0.0; DRAWN];
-        for rows in samples.chunks_mut(DRAWN / run.channels * run.channels) {
-            draw(random, &mut numbers[..rows.len()]);
-            let (sigma, mut left) = (&self.sigma, &numbers[..]);
-            run.wide_rows(
-                rows,
-                #[inline(always)]
-                move |row: &mut [f64]| {
-                    let (numbers, rest) = left.split_at(row.len());
-                    left = rest;
-                    // All are multiplied before one is written, so that several are at once.
-                    let mut noise = [0.0; MOST_CHANNELS];
-                    for ((noise, sigma), number) in noise.iter_mut().zip(sigma).zip(numbers) {
-                        *noise = sigma * number;
-                    }
-                    row.iter_mut().zip(noise).for_each(|(sample, noise)| *sample += noise);
-                },
-            );
-        }
+        run.rows(samples, |row| {
+            let channels = row.iter_mut().zip(&self.sigma);
+            channels.for_each(|(sample, sigma)| *sample += sigma * normal(random));
+        });
     }
 
     /// Noise of each channel's size of which each sample keeps a share of the one before.
