@@ -10,7 +10,6 @@ mod calibrating;
 
 use std::ops::Range;
 
-use hapticore_wide::widest;
 use num_complex::Complex64;
 
 use crate::case::{Case, Length};
@@ -429,13 +428,7 @@ impl Plant {
         if self.effects.clip() {
             return;
         }
-        widest(
-            out,
-            #[inline(always)]
-            |samples: &mut [f64]| {
-                samples.iter_mut().for_each(|sample| *sample = sample.clamp(-1.0, 1.0));
-            },
-        );
+        out.iter_mut().for_each(|sample| *sample = sample.clamp(-1.0, 1.0));
     }
 
     /// A slot as it is looked at, for whoever makes its samples.

@@ -8,13 +8,12 @@ use std::path::{Path, PathBuf};
 use toml::{Table, Value};
 
 /// Which crates of the workspace a crate may use; tests may use more ([`DEVELOPMENT`]).
-const IMPORTS: [(&str, &[&str]); 18] = [
+const IMPORTS: [(&str, &[&str]); 17] = [
     ("model/hdl", &[]),
-    ("model/wide", &[]),
     ("model/contract", &["hapticore-hdl"]),
     // Not the hardware language: its signals round, too.
-    ("model/reference", &["hapticore-contract", "hapticore-wide"]),
-    ("model", &["hapticore-contract", "hapticore-hdl", "hapticore-wide"]),
+    ("model/reference", &["hapticore-contract"]),
+    ("model", &["hapticore-contract", "hapticore-hdl"]),
     ("model/proof", &["hapticore-contract", "hapticore-hdl", "hapticore-model"]),
     ("host/protocol", &["hapticore-contract", "hapticore-hdl"]),
     ("host", &["hapticore-contract", "hapticore-protocol", "hapticore-sheet"]),
@@ -30,7 +29,7 @@ const IMPORTS: [(&str, &[&str]); 18] = [
         ],
     ),
     ("scene/sheet", &[]),
-    ("scene", &["hapticore-sheet", "hapticore-wide"]),
+    ("scene", &["hapticore-sheet"]),
     ("cli/files", &[]),
     ("waveforms", &["hapticore-files", "hapticore-hdl"]),
     (
@@ -43,7 +42,6 @@ const IMPORTS: [(&str, &[&str]); 18] = [
             "hapticore-model",
             "hapticore-reference",
             "hapticore-scene",
-            "hapticore-wide",
         ],
     ),
     (

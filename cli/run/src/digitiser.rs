@@ -2,7 +2,6 @@
 //! The one place where fractions of full scale meet codes.
 
 use hapticore_hdl::format::Format;
-use hapticore_wide::widest;
 
 /// Adding and taking away 1.5·2^52 rounds an f64 of up to 2^51 to an integer, half to even, in two
 /// additions: a call for each sample would cost as much as all else.
@@ -49,28 +48,19 @@ impl Digitiser {
 
     /// The codes of groups of fractions, and the peak in codes.
     fn codes_of_groups(&self, groups: &[[f64; LANES]], codes: &mut [[i32; LANES]]) -> f64 {
-        let digitiser = *self;
-        widest(
-            codes,
-            #[inline(always)]
-            move |codes: &mut [[i32; LANES]]| {
-                // Lanes of their own for the peak: a single one would wait for the sample before.
-                let mut peaks = [0f64; LANES];
-                for (group, codes) in groups.iter().zip(codes) {
-                    let mut raised = [0f64; LANES];
-                    for lane in 0..LANES {
-                        raised[lane] = digitiser.raise(group[lane], &mut peaks[lane]);
-                    }
-                    // In a loop of its own: the one above is of instructions for several lanes at once.
-                    for lane in 0..LANES {
-                        codes[lane] = low_bits(raised[lane]);
-                    }
-                }
-                peaks
-            },
-        )
-        .into_iter()
-        .fold(0.0, larger)
+        // Lanes of their own for the peak: a single one would wait for the sample before.
+        let mut peaks = [0f64; LANES];
+        for (group, codes) in groups.iter().zip(codes) {
+            let mut raised = [0f64; LANES];
+            for lane in 0..LANES {
+                raised[lane] = self.raise(group[lane], &mut peaks[lane]);
+            }
+            // In a loop of its own: the one above is of instructions for several lanes at once.
+            for lane in 0..LANES {
+                codes[lane] = low_bits(raised[lane]);
+            }
+        }
+        peaks.into_iter().fold(0.0, larger)
     }
 
     /// The code of a fraction, with [`ROUNDER`] added; its magnitude counts for the peak.

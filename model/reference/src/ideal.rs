@@ -17,7 +17,6 @@ use crate::control::Prompt;
 use hapticore_contract::calibration::{Calibration, PastVoltage};
 use hapticore_contract::frame::{Flags, Measurement};
 use hapticore_contract::profile::{ForceLaw, Profile, Window};
-use hapticore_wide::widest;
 use num_traits::{Float, FloatConst, FromPrimitive};
 
 /// What the equations can be evaluated in: `f32`, `f64`, or a type with more bits.
@@ -176,17 +175,9 @@ impl<T: Real> Reference<T> {
             _ => self.demodulate_each(codes),
         };
         let [low, high] = self.full_scale;
-        let clipped = widest(
-            codes,
-            #[inline(always)]
-            move |codes: &[i32]| {
-                let mut clipped = false;
-                for &code in codes {
-                    clipped |= (code == low) | (code == high);
-                }
-                clipped
-            },
-        );
+        // Without a branch, so that several codes are compared at once.
+        let clipped =
+            codes.iter().fold(false, |clipped, &code| clipped | (code == low) | (code == high));
         let phasors = std::mem::take(&mut self.sums);
         let measurement = self.estimate(pad, &phasors, mean_square, clipped);
         self.sums = phasors;
@@ -224,26 +215,18 @@ impl<T: Real> Reference<T> {
     /// those of two channels are added up at once.
     fn demodulate<const CHANNELS: usize>(&mut self, codes: &[i32]) -> T {
         // The haptic channel's are not used; to leave it out takes longer.
-        let window = &self.window;
-        let (in_phase, quadrature, mean_square) = widest(
-            codes.as_chunks::<CHANNELS>().0,
-            #[inline(always)]
-            move |samples: &[[i32; CHANNELS]]| {
-                let [mut in_phase, mut quadrature] = [[T::zero(); CHANNELS]; 2];
-                let mut mean_square = T::zero();
-                for (codes, windowed) in samples.iter().zip(window) {
-                    let [cosine, sine] = windowed.carrier;
-                    for channel in 0..CHANNELS {
-                        let x = of_code::<T>(codes[channel]);
-                        in_phase[channel] = in_phase[channel] + x * cosine;
-                        quadrature[channel] = quadrature[channel] + x * sine;
-                    }
-                    let haptic = of_code::<T>(codes[CHANNELS - 1]);
-                    mean_square = mean_square + haptic * haptic * windowed.square;
-                }
-                (in_phase, quadrature, mean_square)
-            },
-        );
+        let [mut in_phase, mut quadrature] = [[T::zero(); CHANNELS]; 2];
+        let mut mean_square = T::zero();
+        for (codes, windowed) in codes.as_chunks::<CHANNELS>().0.iter().zip(&self.window) {
+            let [cosine, sine] = windowed.carrier;
+            for channel in 0..CHANNELS {
+                let x = of_code::<T>(codes[channel]);
+                in_phase[channel] = in_phase[channel] + x * cosine;
+                quadrature[channel] = quadrature[channel] + x * sine;
+            }
+            let haptic = of_code::<T>(codes[CHANNELS - 1]);
+            mean_square = mean_square + haptic * haptic * windowed.square;
+        }
         let phasors = in_phase.into_iter().zip(quadrature);
         self.sums.iter_mut().zip(phasors).for_each(|(sum, (i, q))| *sum = [i, q]);
         mean_square

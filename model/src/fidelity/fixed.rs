@@ -26,7 +26,6 @@ use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::Format;
 use hapticore_hdl::signal::{Proved, Signal, bit, code, constant, zero};
-use hapticore_wide::widest;
 
 /// The windowed carrier at a sample, and the window itself.
 #[derive(Debug, Clone, Copy)]
@@ -299,17 +298,7 @@ impl<V: Interpretation> FixedSimulation<V> {
 
     fn clipped(&self, codes: &[i32]) -> bool {
         let full_scale = [self.adc.min_code() as i32, self.adc.max_code() as i32];
-        widest(
-            codes,
-            #[inline(always)]
-            move |codes| {
-                codes.iter().fold(
-                    false,
-                    #[inline(always)]
-                    |clipped, code| clipped | full_scale.contains(code),
-                )
-            },
-        )
+        codes.iter().fold(false, |clipped, code| clipped | full_scale.contains(code))
     }
 
     /// Hands the sums to the estimator and runs it until its frame is there.

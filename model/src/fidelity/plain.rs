@@ -10,8 +10,6 @@
 //! exactly, and of which a processor multiplies several at once. A test holds the frames equal to
 //! those of every clock. With the words that an unrounded core has, the same loop gives its sums.
 
-use hapticore_wide::widest;
-
 use crate::blocks::oscillator::PHASES;
 
 /// The words of a window, and how its haptic code is rounded.
@@ -126,22 +124,16 @@ fn square(words: &Words, window: f64, code: i32) -> f64 {
 
 fn products<const N: usize>(words: &Words, codes: &[i32], into: &mut [f64]) -> f64 {
     let Waves::Products(waves) = &words.waves else { unreachable!("chosen by the waves") };
-    let (in_phase, quadrature, squares) = widest(
-        codes.as_chunks::<N>().0,
-        #[inline(always)]
-        move |samples: &[[i32; N]]| {
-            let (mut in_phase, mut quadrature, mut squares) = ([0.0; N], [0.0; N], 0.0);
-            for ((codes, [cosine, sine]), window) in samples.iter().zip(waves).zip(&words.window) {
-                for channel in 0..N {
-                    let code = f64::from(codes[channel]);
-                    in_phase[channel] += code * cosine;
-                    quadrature[channel] += code * sine;
-                }
-                squares += square(words, *window, codes[N - 1]);
-            }
-            (in_phase, quadrature, squares)
-        },
-    );
+    let samples = codes.as_chunks::<N>().0.iter();
+    let (mut in_phase, mut quadrature, mut squares) = ([0.0; N], [0.0; N], 0.0);
+    for ((codes, [cosine, sine]), window) in samples.zip(waves).zip(&words.window) {
+        for channel in 0..N {
+            let code = f64::from(codes[channel]);
+            in_phase[channel] += code * cosine;
+            quadrature[channel] += code * sine;
+        }
+        squares += square(words, *window, codes[N - 1]);
+    }
     into[..N].copy_from_slice(&in_phase);
     into[N..].copy_from_slice(&quadrature);
     squares
@@ -151,23 +143,16 @@ fn phases<const N: usize>(words: &Words, codes: &[i32], into: &mut [f64]) -> f64
     const COUNT: usize = PHASES as usize;
     let Waves::Phases { offset } = words.waves else { unreachable!("chosen by the waves") };
     let (periods, _) = codes.as_chunks::<N>().0.as_chunks::<COUNT>();
-    let (sums, squares) = widest(
-        periods,
-        #[inline(always)]
-        move |periods: &[[[i32; N]; COUNT]]| {
-            let (mut sums, mut squares) = ([[0.0; N]; COUNT], 0.0);
-            for (period, windows) in periods.iter().zip(words.window.as_chunks::<COUNT>().0) {
-                for phase in 0..COUNT {
-                    let (codes, window) = (&period[phase], windows[phase]);
-                    for channel in 0..N {
-                        sums[phase][channel] += (f64::from(codes[channel]) + offset) * window;
-                    }
-                    squares += square(words, window, codes[N - 1]);
-                }
+    let (mut sums, mut squares) = ([[0.0; N]; COUNT], 0.0);
+    for (period, windows) in periods.iter().zip(words.window.as_chunks::<COUNT>().0) {
+        for phase in 0..COUNT {
+            let (codes, window) = (&period[phase], windows[phase]);
+            for channel in 0..N {
+                sums[phase][channel] += (f64::from(codes[channel]) + offset) * window;
             }
-            (sums, squares)
-        },
-    );
+            squares += square(words, window, codes[N - 1]);
+        }
+    }
     into.copy_from_slice(sums.as_flattened());
     squares
 }

@@ -99,17 +99,13 @@ impl ChannelEffect for Carrier {
         let mut carrier =
             Rotor::new(self.turns_per_sample * run.range.start as f64, self.turns_per_sample);
         let mut slow = haptic_rotor(&self.device, run);
-        run.wide_rows(
-            samples,
-            #[inline(always)]
-            move |row: &mut [f64]| {
-                let now = carrier.turn();
-                for (sample, (re, im)) in row.iter_mut().zip(inphase.iter().zip(&quadrature)) {
-                    *sample = re * now.re - im * now.im;
-                }
-                row[row.len() - 1] = haptic * slow.turn().im;
-            },
-        );
+        run.rows(samples, |row| {
+            let now = carrier.turn();
+            for (sample, (re, im)) in row.iter_mut().zip(inphase.iter().zip(&quadrature)) {
+                *sample = re * now.re - im * now.im;
+            }
+            row[row.len() - 1] = haptic * slow.turn().im;
+        });
         if self.device.haptic_wave != HapticWave::Sine {
             self.set_haptic(pad, run, samples);
         }

@@ -3,7 +3,6 @@
 
 use std::ops::Range;
 
-use hapticore_wide::widest;
 use num_complex::Complex64;
 
 use super::pad::Pad;
@@ -118,36 +117,10 @@ impl Run {
         }
     }
 
-    /// As [`Run::rows`], compiled for the processor that it runs on ([`widest`]): `act` must be marked
-    /// `#[inline(always)]`.
-    #[inline(always)]
-    pub fn wide_rows(&self, samples: &mut [f64], act: impl FnMut(&mut [f64])) {
-        match self.channels {
-            6 => wide::<6>(samples, act),
-            8 => wide::<8>(samples, act),
-            10 => wide::<10>(samples, act),
-            channels => samples.chunks_exact_mut(channels).for_each(act),
-        }
-    }
-
     /// The terminals' part of a row.
     #[inline(always)]
     pub fn terminals(row: &mut [f64]) -> &mut [f64] {
         let terminals = row.len() - VOLTAGES;
         &mut row[..terminals]
     }
-}
-
-#[inline(always)]
-fn wide<const CHANNELS: usize>(samples: &mut [f64], mut act: impl FnMut(&mut [f64])) {
-    let (rows, _) = samples.as_chunks_mut::<CHANNELS>();
-    widest(
-        rows,
-        #[inline(always)]
-        move |rows| {
-            for row in rows {
-                act(row);
-            }
-        },
-    );
 }

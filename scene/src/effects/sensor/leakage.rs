@@ -44,16 +44,12 @@ impl ChannelEffect for Leakage {
             pad.admittance(TAU * self.device.haptic_hz) * volt / self.device.current_full_scale_a;
         let mut rotor = haptic_rotor(&self.device, run);
         let shares = pad.split.map(|share| share.re).padded();
-        run.wide_rows(
-            samples,
-            #[inline(always)]
-            move |row: &mut [f64]| {
-                let now = (total * rotor.turn()).im;
-                for (sample, share) in Run::terminals(row).iter_mut().zip(&shares) {
-                    *sample += now * share;
-                }
-            },
-        );
+        run.rows(samples, |row| {
+            let now = (total * rotor.turn()).im;
+            for (sample, share) in Run::terminals(row).iter_mut().zip(&shares) {
+                *sample += now * share;
+            }
+        });
         if let Some(currents) = &pad.leakage_of_others_a {
             self.add_others(currents, run, samples);
         }

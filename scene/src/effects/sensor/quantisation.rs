@@ -2,8 +2,6 @@
 //! `sensor.quantisation_bits`: samples become codes of so many bits, full scale ±1, half to even,
 //! clipped at full scale. Amplitudes stay exact: quantisation is a matter of samples.
 
-use hapticore_wide::widest;
-
 use super::super::effect::{ChannelEffect, Effect, Phasors, Run};
 use super::super::pad::Pad;
 use super::super::spec::{Setting, Spec};
@@ -43,15 +41,9 @@ impl ChannelEffect for Quantisation {
 
     fn samples(&mut self, _: &Pad, _: &Run, samples: &mut [f64]) {
         let (codes, step) = (self.codes, 1.0 / self.codes);
-        widest(
-            samples,
-            #[inline(always)]
-            move |samples: &mut [f64]| {
-                for sample in samples {
-                    let code = (*sample * codes + ROUNDER) - ROUNDER;
-                    *sample = code.clamp(-codes, codes - 1.0) * step;
-                }
-            },
-        );
+        for sample in samples {
+            let code = (*sample * codes + ROUNDER) - ROUNDER;
+            *sample = code.clamp(-codes, codes - 1.0) * step;
+        }
     }
 }
