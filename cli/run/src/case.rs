@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A case of a scene, run: while the core works on some slots, the next ones are made (`ahead.rs`).
+//! A case of a scene, run: while the core works on some slots, workers generate the next ones (`prefetch.rs`).
 
 use std::collections::VecDeque;
 use std::sync::{Arc, LazyLock, OnceLock};
@@ -17,7 +17,6 @@ use hapticore_scene::{
     ControlPlan, EffectCost, Figure, LevelDeviation, Plant, Scene, Truth, signs_by_place,
 };
 
-use crate::ahead::{Ahead, Made};
 use crate::calibrate::{self, bench::Bench};
 use crate::capture::Recorder;
 use crate::control::plant::LoopPlant;
@@ -28,10 +27,11 @@ use crate::findings::states::Limits;
 use crate::inputs::{buildable, timing};
 use crate::interrupt;
 use crate::maker::Maker;
+use crate::prefetch::{PreparedSlot, prefetch};
 use crate::record::{self, Driven, Row, SignalError};
 use crate::session::Session;
 
-/// Bytes of the slots that are made ahead of the core.
+/// Bytes of the slots that are generated ahead of the core.
 const KEPT: usize = 8 << 20;
 
 /// The most slots of all cases that are run: a row of each is kept until the end.
@@ -249,8 +249,11 @@ impl<'a> Case<'a> {
             self.close(session()?, maker(plant), recorder, progress)?
         } else {
             let another = || maker(self.plant().expect("as the first"));
-            let ahead = Ahead::new(plant.metered(), (self.slots, self.kept(whole)), another);
-            self.run_ahead(session, ahead, recorder, progress)?
+            let (plant, size) = (plant.metered(), (self.slots, self.kept(whole)));
+            let (outcome, effects) = prefetch(plant, size, another, |slots| {
+                consume(session()?, slots, recorder, progress)
+            });
+            Outcome { effects, ..outcome? }
         };
         self.check_finite(&outcome.rows)?;
         Ok(outcome)
@@ -275,41 +278,10 @@ impl<'a> Case<'a> {
             self.name()
         );
     }
-
-    /// Runs the case while its next slots are made.
-    fn run_ahead(
-        &self,
-        session: impl FnOnce() -> Result<Session>,
-        ahead: Ahead<impl Fn() -> Maker + Sync>,
-        mut recorder: Option<&mut (dyn Recorder + Send)>,
-        progress: &(dyn Fn() + Sync),
-    ) -> Result<Outcome> {
-        let mut outcome = Outcome::default();
-        rayon::in_place_scope(|helpers| {
-            // There is time to make some while the device is calibrated.
-            ahead.call_helpers(helpers);
-            let run = || {
-                let mut session = session()?;
-                while let Some(made) = ahead.take() {
-                    consume(&mut session, &made, &mut outcome, &mut recorder, progress)?;
-                    ahead.give_back(made.slot.signals);
-                    ahead.call_helpers(helpers);
-                }
-                outcome.rows.extend(session.finish());
-                outcome.errors = session.errors();
-                anyhow::Ok(())
-            };
-            let ran = run();
-            ahead.stop();
-            ran
-        })?;
-        outcome.effects = ahead.effects();
-        Ok(outcome)
-    }
 }
 
 impl Case<'_> {
-    /// Slots kept at most that are made ahead: sixteen at least. They are whole, or their windows.
+    /// Slots kept at most that are generated ahead: sixteen at least. They are whole, or their windows.
     fn kept(&self, whole: bool) -> usize {
         let slot = &self.profile.slot;
         let samples = if whole { slot.samples() } else { slot.integrate };
@@ -504,22 +476,26 @@ fn with_core(driven: Option<Driven>, core_n: Option<f64>) -> Option<Driven> {
     driven.map(|driven| Driven { core_n, ..driven })
 }
 
-/// Takes a slot to the core.
+/// Runs the core on slots of the plant.
 fn consume(
-    session: &mut Session,
-    Made { slot, truth, peak }: &Made,
-    outcome: &mut Outcome,
-    recorder: &mut Option<&mut (dyn Recorder + Send)>,
+    mut session: Session,
+    slots: impl Iterator<Item = PreparedSlot>,
+    mut recorder: Option<&mut (dyn Recorder + Send)>,
     progress: &(dyn Fn() + Sync),
-) -> Result<()> {
-    interrupt::check()?;
-    if let Some(recorder) = recorder.as_mut() {
-        recorder.slot(slot.pad, slot.whole())?;
+) -> Result<Outcome> {
+    let mut outcome = Outcome::default();
+    for PreparedSlot { slot, truth, peak } in slots {
+        interrupt::check()?;
+        if let Some(recorder) = recorder.as_mut() {
+            recorder.slot(slot.pad, slot.whole())?;
+        }
+        outcome.peak = outcome.peak.max(peak);
+        outcome.rows.extend(session.slot(&slot, Some(record_truth(&truth))));
+        progress();
     }
-    outcome.peak = outcome.peak.max(*peak);
-    outcome.rows.extend(session.slot(slot, Some(record_truth(truth))));
-    progress();
-    Ok(())
+    outcome.rows.extend(session.finish());
+    outcome.errors = session.errors();
+    Ok(outcome)
 }
 
 /// What the record keeps of the plant's truth.

@@ -62,11 +62,6 @@ pub enum Signals {
     },
 }
 
-impl Signals {
-    /// Of no sample.
-    pub(crate) const NONE: Signals = Signals::Samples { codes: Vec::new(), blanking: 0 };
-}
-
 impl Slot {
     /// The codes of the window.
     ///

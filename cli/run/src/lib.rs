@@ -10,7 +10,7 @@
 //! | [`engine`] | the core at its three fidelities behind one trait |
 //! | [`session`] | slots in, rows out: the core, the reference beside it, rounding errors |
 //! | [`maker`] | what a plant gives the core of its slots |
-//! | `ahead` | slots made by all processors, while the core works on those before |
+//! | `prefetch` | slots generated on other threads, while the core works on those before |
 //! | [`case`] | a case of a scene, run |
 //! | [`control`] | the force loop of a scene: controller, tuning, and what closes it |
 //! | [`criteria`] | what a scene claims, measured |
@@ -24,7 +24,6 @@
 //! | [`record`], [`provenance`] | what a run leaves, and where it comes from |
 //! | [`interrupt`], [`number`] | a run that is told to stop; numbers in messages |
 
-mod ahead;
 pub mod calibrate;
 pub mod capture;
 pub mod case;
@@ -41,6 +40,7 @@ pub mod interrupt;
 pub mod lab;
 pub mod maker;
 pub mod number;
+mod prefetch;
 pub mod provenance;
 pub mod record;
 pub mod session;

@@ -30,37 +30,21 @@ impl Maker {
     /// What the core is given of a slot, and the largest sample.
     pub fn signals(&mut self, slot: usize) -> (Signals, f64) {
         let slot = self.plant.slot(slot);
-        let mut signals = Signals::NONE;
-        let peak = self.make(&slot, &mut signals);
-        (signals, peak)
+        self.generate(&slot)
     }
 
     /// The samples of a slot, and the largest.
     pub fn sample(&mut self, slot: usize) -> (Signals, f64) {
-        let (slot, mut codes) = (self.plant.slot(slot), Vec::new());
-        let (blanking, peak) = self.samples(&slot, &mut codes);
-        (Signals::Samples { codes, blanking }, peak)
+        let slot = self.plant.slot(slot);
+        self.samples(&slot)
     }
 
-    /// What the core is given of a slot that a plant of the case has looked at, in place of the signals of
-    /// another, whose memory is used again; the largest sample.
-    pub(crate) fn make(&mut self, slot: &Slot, signals: &mut Signals) -> f64 {
-        if !self.sampled {
-            let (amplitudes, mean_square, peak) = self.phasors(slot);
-            *signals = Signals::Phasors { amplitudes, mean_square };
-            return peak;
-        }
-        let mut codes = match signals {
-            Signals::Samples { codes, .. } => std::mem::take(codes),
-            Signals::Phasors { .. } => Vec::new(),
-        };
-        let (blanking, peak) = self.samples(slot, &mut codes);
-        *signals = Signals::Samples { codes, blanking };
-        peak
+    /// What the core receives of a slot that a plant of the case has evaluated, and the largest sample.
+    pub(crate) fn generate(&mut self, slot: &Slot) -> (Signals, f64) {
+        if self.sampled { self.samples(slot) } else { self.phasors(slot) }
     }
 
-    /// The codes of a slot in place of others: how many of the blanking are among them, and the largest sample.
-    fn samples(&mut self, slot: &Slot, codes: &mut Vec<i32>) -> (usize, f64) {
+    fn samples(&mut self, slot: &Slot) -> (Signals, f64) {
         let first = if self.whole { 0 } else { self.blanking };
         let channels = self.plant.channels();
         self.fractions.resize((self.samples - first) * channels, 0.0);
@@ -70,7 +54,9 @@ impl Maker {
         }
         self.plant.samples_of(slot, self.blanking..self.samples, window);
         let blanking = blanking.len();
-        (blanking, self.digitiser.codes(&self.fractions, codes))
+        let mut codes = Vec::new();
+        let peak = self.digitiser.codes(&self.fractions, &mut codes);
+        (Signals::Samples { codes, blanking }, peak)
     }
 
     /// Simulated device of the case.
@@ -78,12 +64,12 @@ impl Maker {
         &mut self.plant
     }
 
-    fn phasors(&mut self, slot: &Slot) -> (Vec<(f64, f64)>, f64, f64) {
+    fn phasors(&mut self, slot: &Slot) -> (Signals, f64) {
         let mut found = vec![Complex::default(); self.plant.channels() - 1];
         let mean_square = self.plant.phasors_of(slot, &mut found);
         let largest =
             found.iter().map(|phasor| phasor.norm()).fold((2.0 * mean_square).sqrt(), f64::max);
         let amplitudes = found.iter().map(|phasor| (phasor.re, phasor.im)).collect();
-        (amplitudes, mean_square, largest)
+        (Signals::Phasors { amplitudes, mean_square }, largest)
     }
 }
