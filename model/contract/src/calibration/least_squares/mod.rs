@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Least squares over tables: which entries make interpolation come nearest to given values.
 //!
-//! The normal equations of three entries are solved by Cholesky's factor ([`Moments`]), those of a raster by
-//! conjugate gradients ([`RasterFit`]). Why both are ours, with figures: docs/decisions.md §32.
+//! The normal equations of three entries ([`Moments`]) and those of a raster ([`RasterFit`]) are solved by
+//! Cholesky's factor.
 
 mod band;
-mod gradients;
 mod moments;
 mod near;
 mod raster;
-mod separable;
 #[cfg(test)]
 mod terms;
 

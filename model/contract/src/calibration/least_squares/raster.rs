@@ -2,7 +2,6 @@
 //! Least squares over the entries of a raster, of which equations have neighbours only.
 
 use super::band::Band;
-use super::gradients;
 use super::moments::{Moments, add};
 use super::near::{NEAR, Near, REACH};
 
@@ -61,14 +60,6 @@ impl<const LAYERS: usize> RasterFit<LAYERS> {
     /// The entries: of each layer one after the other. None where what was asked does not settle them
     /// all.
     pub fn solve(self) -> Option<[Vec<f64>; LAYERS]> {
-        let found = gradients::solve(self.size, &self.normal, &self.right);
-        let layers = || [0; LAYERS].map(|_| Vec::with_capacity(self.right.len()));
-        found.map(|found| layer_by_layer(&found, layers())).or_else(|| self.directly())
-    }
-
-    /// The entries by Cholesky's factor, for equations that the usual way does not come to an end with: some
-    /// entries are settled by little else than smoothness.
-    fn directly(&self) -> Option<[Vec<f64>; LAYERS]> {
         let [columns, rows] = self.size;
         // Numbered along the shorter side, the band is as narrow as can be.
         let number = |entry: usize| match columns > rows {
@@ -111,16 +102,6 @@ fn about(
     beside(row, rows).flat_map(move |(n, row)| {
         beside(column, columns).map(move |(m, column)| (row * columns + column, near[n][m]))
     })
-}
-
-fn layer_by_layer<const LAYERS: usize>(
-    entries: &[[f64; LAYERS]],
-    mut layers: [Vec<f64>; LAYERS],
-) -> [Vec<f64>; LAYERS] {
-    for entry in entries {
-        layers.iter_mut().zip(entry).for_each(|(layer, number)| layer.push(*number));
-    }
-    layers
 }
 
 #[cfg(test)]
@@ -193,27 +174,13 @@ mod tests {
             let (entries, case) = (entries(size), format!("{size:?}"));
             let of_splines = asked(size, &entries, splines, 100.0);
             check(&of_splines.solve().expect("settled"), &entries, 1e-9, &case);
-            // Weights that do not sum to one: nothing separable is like these.
+            // Weights that do not sum to one.
             let of_any = asked(size, &entries, some, 100.0);
             check(&of_any.solve().expect("settled"), &entries, 1e-9, &case);
         }
     }
 
-    /// The usual way, which must come to an end, and Cholesky's factor.
-    #[test]
-    fn both_ways_to_solve_find_the_same() {
-        for size in SIZES {
-            for times in [1.0, 1e2, 1e4] {
-                let fit = asked(size, &entries(size), splines, times);
-                let found = gradients::solve(size, &fit.normal, &fit.right).expect("found");
-                let found = layer_by_layer(&found, [Vec::new(), Vec::new()]);
-                let case = format!("{size:?}, {times}");
-                check(&found, &fit.directly().expect("settled"), 1e-10, &case);
-            }
-        }
-    }
-
-    /// Points in one half alone: smoothness continues what they say, and Cholesky's factor finds it.
+    /// Points in one half alone: smoothness continues what they say.
     #[test]
     fn entries_that_smoothness_alone_settles_are_found() {
         for size @ [columns, rows] in [[24, 9], [9, 24], [40, 30]] {
@@ -242,8 +209,6 @@ mod tests {
                     fit.ask_line(first, columns, [1.0, -2.0, 1.0], 1e-7);
                 }
             }
-            let usual = gradients::solve(size, &fit.normal, &fit.right);
-            assert!(usual.is_none(), "{size:?}: for the factor");
             check(&fit.solve().expect("settled"), &rising, 1e-3, &format!("{size:?}"));
         }
     }
