@@ -4,13 +4,11 @@
 //!
 //! Needs `gtkwave` and `xvfb-run`; ignored where they are not to be had.
 
-mod common;
-
 use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use common::{Fake, VARIABLES, folder, settings, trace, true_x};
+use crate::common::{Fake, VARIABLES, folder, settings, trace, true_x};
 use hapticore_waveforms::gtkwave::save;
 use hapticore_waveforms::kind::Kind;
 use hapticore_waveforms::view::View;

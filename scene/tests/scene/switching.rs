@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Pad switching: transients in closed form and integrated, each method with its exact error.
 
-mod common;
-
 use std::f64::consts::PI;
 
-use common::{
+use crate::common::{
     CHANNELS, PAD, SENSE, TERMINALS, capacitance_f, demodulate, hann, plant, scene, timing,
 };
 use hapticore_scene::{Complex, Plant, Timing};

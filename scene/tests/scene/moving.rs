@@ -2,9 +2,7 @@
 //! Effects with a state, as a scene has them: the gap in motion, the supply, the finger, split
 //! pads; and that none of them is there unless the scene names it.
 
-mod common;
-
-use common::standard_timing as timing;
+use crate::common::standard_timing as timing;
 use hapticore_scene::{Complex, Plant, Scene, Truth};
 
 fn plant(text: &str) -> Plant {

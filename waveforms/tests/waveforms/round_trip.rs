@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What is written is what an independent reader reads, at every clock, in both formats.
 
-mod common;
-
 use std::path::Path;
 
-use common::{Fake, VARIABLES, folder, settings, trace, true_x};
+use crate::common::{Fake, VARIABLES, folder, settings, trace, true_x};
 use hapticore_waveforms::fst_file::FstFile;
 use hapticore_waveforms::kind::Kind;
 use hapticore_waveforms::tracer::{Settings, Tracer};

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Devices of three to sixteen terminals, from the scene to the ADC's channels.
 
-mod common;
-
-use common::{demodulate, hann, plant};
+use crate::common::{demodulate, hann, plant};
 use hapticore_scene::{Complex, signs_by_place};
 
 /// Every effect that acts on terminals, on a sheet of these; two pads, so that they are coupled.

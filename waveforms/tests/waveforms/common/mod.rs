@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A small simulation with every kind of variable, shaped like the core.
-#![allow(dead_code)]
 
 use std::path::{Path, PathBuf};
 

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Defaults that work: what a scene leaves out changes nothing of what it has.
 
-mod common;
-
-use common::plant;
+use crate::common::plant;
 use hapticore_scene::{Plant, Scene, Truth};
 
 fn level(text: &str, effect: &str) -> String {
-    let case = &common::scene(text).cases[0];
+    let case = &crate::common::scene(text).cases[0];
     let found = case.effects().into_iter().find(|(name, _)| *name == effect);
     found.expect("the effect is on").1.to_string()
 }
@@ -24,7 +22,7 @@ fn a_gap_moves_under_a_controller_unless_the_scene_says_otherwise() {
 }
 
 fn doubts(text: &str) -> Vec<String> {
-    common::scene(text).cases[0].doubts.clone()
+    crate::common::scene(text).cases[0].doubts.clone()
 }
 
 #[test]
@@ -59,7 +57,7 @@ fn friction_left_out_leaves_the_haptic_force_as_it_is() {
         let [with, without] = ["[friction]\n", ""].map(|more| at_300_v(&format!("{gap}{more}")));
         assert_eq!(with.force_n, without.force_n, "{gap}");
         // Eq. 8 with the even gap's k is another number: a reading, and not the truth.
-        let k = common::scene("[[pad]]\nposition_mm = [0, 0]\n").cases[0].device.force_k;
+        let k = crate::common::scene("[[pad]]\nposition_mm = [0, 0]\n").cases[0].device.force_k;
         let eq8_n = k * (1e-12 * without.capacitance_pf * without.haptic_v_rms).powi(2);
         assert!(without.force_n > 1.02 * eq8_n, "{gap}: {} {eq8_n}", without.force_n);
     }
@@ -98,7 +96,7 @@ fn the_direction_of_a_hand_can_be_read_unless_the_scene_says_otherwise() {
     let doubts = |set: &[(&str, &str)]| case("[control]\n[wall]\n", set).cases[0].doubts.clone();
     let pushed = |set: &[(&str, &str)]| {
         let scene = case("", &[&[("pad.0.push_x_n", "0.3")], set].concat());
-        let timing = hapticore_scene::Timing { pads: 16, ..common::timing() };
+        let timing = hapticore_scene::Timing { pads: 16, ..crate::common::timing() };
         let mut plant = Plant::new(&scene, 0, &timing).expect("a plant");
         plant.truth(200).direction
     };

@@ -2,10 +2,8 @@
 //! Charge in the insulators: the attraction drifts under a voltage with a mean, as closed forms and
 //! an integration apart have it, and does not under one that alternates.
 
-mod common;
-
-use common::ode::{Ode, REST_UM};
-use common::{assert_near, scene, standard_timing, timing};
+use crate::common::ode::{Ode, REST_UM};
+use crate::common::{assert_near, scene, standard_timing, timing};
 use hapticore_scene::{Plant, Truth};
 
 fn plant(text: &str) -> Plant {

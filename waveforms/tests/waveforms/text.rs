@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Text waveforms of the made-up core.
 
-mod common;
-
-use common::Fake;
+use crate::common::Fake;
 use hapticore_waveforms::text::{History, check};
 
 fn history(clocks: impl IntoIterator<Item = u64>) -> History {

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The sensor chain against the check values of docs/physics.md §5, over windows of 200 µs.
 
-mod common;
-
-use common::{
+use crate::common::{
     CHANNELS, PAD, SENSE, TERMINALS, assert_near, capacitance_f, demodulate, deviation_percent,
     force_noise_percent, hann, plant, rectangle,
 };
@@ -188,7 +186,8 @@ fn haptic_currents_of_four_pads_in_a_corner_clip() {
         let text = format!(
             "dwell_slots = 20\n{pads}[sheet]\n[sensor]\ncurrent_full_scale_ma = 4\n{sensor}"
         );
-        let mut plant = Plant::new(&common::scene(&text), 0, &common::timing()).unwrap();
+        let mut plant =
+            Plant::new(&crate::common::scene(&text), 0, &crate::common::timing()).unwrap();
         let mut samples = Vec::new();
         (0..20).for_each(|round| plant.samples(4 * round + 1, 0..200, &mut samples));
         samples.chunks_exact(CHANNELS).map(|row| row[0].abs()).fold(0.0, f64::max)

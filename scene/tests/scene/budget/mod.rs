@@ -4,7 +4,7 @@
 mod actual;
 mod drawn;
 
-use drawn::Drawn;
+use self::drawn::Drawn;
 use hapticore_scene::{LevelDeviation, Plant, Scene, Timing, gallery};
 
 const HEAD: &str = "title = \"t\"\n";

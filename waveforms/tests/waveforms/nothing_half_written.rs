@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A file appears whole or not at all.
 
-mod common;
-
 use std::fs;
 use std::path::Path;
 
-use common::{Fake, folder, settings, truth};
+use crate::common::{Fake, folder, settings, truth};
 use hapticore_waveforms::Error;
 use hapticore_waveforms::declarations::Declarations;
 use hapticore_waveforms::kind::Kind;
@@ -43,7 +41,7 @@ fn a_dropped_trace_leaves_nothing_and_an_older_file_alone() {
 fn a_finished_trace_leaves_one_file() {
     for kind in [Kind::Vcd, Kind::Fst] {
         let folder = folder();
-        let (path, _) = common::trace(folder.path(), kind, &settings(), 10);
+        let (path, _) = crate::common::trace(folder.path(), kind, &settings(), 10);
         assert_eq!(names(folder.path()), [path.file_name().unwrap().to_str().unwrap()]);
     }
 }

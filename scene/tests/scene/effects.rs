@@ -2,10 +2,8 @@
 //! Effects together: those of no size change no bit, and none depends on what else is asked for, on
 //! which thread.
 
-mod common;
-
-use common::every::{PARTS, scene_of};
-use common::{plant, scene, see, timing};
+use crate::common::every::{PARTS, scene_of};
+use crate::common::{plant, scene, see, timing};
 use hapticore_scene::{Complex, Plant};
 
 /// Two pads of a case.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What several tests share: scenes of one pad, an ideal demodulator and the exact inversion of
 //! docs/physics.md §2.
-#![allow(dead_code, reason = "each test file uses a part")]
 
 pub mod every;
 pub mod ode;

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Every number of a scene, however large or small: refused, or a plant whose truth and signals are numbers.
 
-mod common;
-
-use common::timing;
+use crate::common::timing;
 use hapticore_scene::{Complex, Plant, Scene, Timing};
 
 /// A scene in which every table has its keys.

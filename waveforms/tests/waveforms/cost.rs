@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What tracing costs. Prints; asserts no times, which are the machine's.
 //!
-//! `cargo test --release -p hapticore-waveforms --test cost -- --nocapture`
-
-mod common;
+//! `cargo test --release -p hapticore-waveforms --test waveforms cost -- --nocapture`
 
 use std::time::Instant;
 
-use common::{folder, settings};
+use crate::common::{folder, settings};
 use hapticore_hdl::format::Format;
 use hapticore_hdl::probe::{Probe, Variable};
 use hapticore_waveforms::kind::Kind;

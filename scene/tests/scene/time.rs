@@ -2,10 +2,8 @@
 //! A pad's mechanics live in all of time: what happens between its slots is as an independent
 //! integration has it, whoever is served and whoever is looked at.
 
-mod common;
-
-use common::ode::{Ode, REST_UM};
-use common::standard_timing as timing;
+use crate::common::ode::{Ode, REST_UM};
+use crate::common::standard_timing as timing;
 use hapticore_scene::{DriveError, Plant, Scene, Truth};
 
 fn plant(text: &str) -> Plant {

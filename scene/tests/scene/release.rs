@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Friction that lets go late, and a coefficient of friction that drifts.
 
-mod common;
-
-use common::{assert_near, scene, standard_timing};
+use crate::common::{assert_near, scene, standard_timing};
 use hapticore_scene::{Plant, Truth};
 
 fn plant(text: &str) -> Plant {

@@ -2,9 +2,7 @@
 //! Split pads: how a push tilts them, what strips of a disc carry, and electrodes at a voltage of
 //! their own.
 
-mod common;
-
-use common::timing;
+use crate::common::timing;
 use hapticore_scene::{Plant, Scene, Truth};
 
 fn plant(text: &str) -> Plant {

@@ -2,9 +2,7 @@
 //! A film that is warmer than at its calibration: everything that is computed from the sheet sees
 //! the same changed film.
 
-mod common;
-
-use common::{plant, timing};
+use crate::common::{plant, timing};
 use hapticore_scene::{Complex, Plant, Scene, Truth};
 
 /// Two pads, so that they can be coupled.

@@ -2,11 +2,9 @@
 //! Pay for what you use: an effect that a scene does not name is not built, never evaluated, holds
 //! no memory and leaves the bits of the run alone.
 
-mod common;
-
+use crate::common::every::{PARTS, Part, optional, scene_of};
+use crate::common::{CHANNELS, SENSE, Seen, plant, scene, see, timing};
 use allocation_counter::measure;
-use common::every::{PARTS, Part, optional, scene_of};
-use common::{CHANNELS, SENSE, Seen, plant, scene, see, timing};
 use hapticore_scene::{Complex, Plant, Scene};
 
 const SLOTS: usize = 6;

@@ -2,9 +2,7 @@
 //! The panel's noise through the shunt: its size, one source for all terminals, and the same in
 //! amplitudes and in samples.
 
-mod common;
-
-use common::{CHANNELS, SENSE, TERMINALS, assert_near, demodulate, hann, plant};
+use crate::common::{CHANNELS, SENSE, TERMINALS, assert_near, demodulate, hann, plant};
 use hapticore_scene::{Complex, Plant};
 
 const SLOTS: usize = 4000;

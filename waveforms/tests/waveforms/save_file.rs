@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Save files: what is in them is in the trace, shown as the view says.
 
-mod common;
-
 use std::fs;
 
-use common::{STATES, folder, settings, trace};
+use crate::common::{STATES, folder, settings, trace};
 use hapticore_waveforms::gtkwave::{self, SaveFile};
 use hapticore_waveforms::kind::Kind;
 use hapticore_waveforms::tracer::Trace;
