@@ -2,7 +2,8 @@
 //! Traces a made-up core into a folder: `cargo run -p hapticore-waveforms --example trace -- DIR`,
 //! then `gtkwave DIR/waves.gtkw`, to see what the viewer makes of it.
 
-#[path = "../tests/common/mod.rs"]
+#[path = "../tests/waveforms/common/mod.rs"]
+#[allow(dead_code, reason = "the example uses a part")]
 mod common;
 
 use std::path::Path;

@@ -103,9 +103,17 @@ impl AtomicFile {
 ///
 /// # Errors
 /// It cannot be written; then an older one stays as it was.
-pub fn write(path: &Path, bytes: impl AsRef<[u8]>) -> io::Result<()> {
+pub fn write(path: &Path, text: &str) -> io::Result<()> {
+    write_bytes(path, text.as_bytes())
+}
+
+/// Writes a whole file of any bytes.
+///
+/// # Errors
+/// As [`write`].
+pub fn write_bytes(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let partial = AtomicFile::create(path)?;
-    partial.reopen()?.write_all(bytes.as_ref())?;
+    partial.reopen()?.write_all(bytes)?;
     partial.persist()
 }
 

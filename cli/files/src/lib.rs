@@ -21,6 +21,6 @@ mod file;
 mod folder;
 mod partial;
 
-pub use file::{AtomicFile, write, write_new};
+pub use file::{AtomicFile, write, write_bytes, write_new};
 pub use folder::AtomicFolder;
 pub use partial::{PREFIX, clear};

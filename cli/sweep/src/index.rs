@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
 
-use crate::store::{Part, write};
+use crate::store::{Part, write_bytes};
 
 /// The first half of a point's name: two of 10⁷ points share it once in 10²⁴ stores.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -74,7 +74,7 @@ pub fn holds_any(part: &Path, index: &Path, asked: &Asked) -> Result<bool> {
             Part { torn: Some(_), .. } => return Ok(true),
             Part { lines, .. } => {
                 let bytes = bytes(length, lines.iter().map(|line| &*line.key));
-                write(index, &bytes)?;
+                write_bytes(index, &bytes)?;
                 bytes
             }
         },

@@ -122,7 +122,7 @@ impl Store {
         let part = self.folder.join("parts").join(format!("{name}.jsonl"));
         write(&self.folder.join("times").join(format!("{name}.jsonl")), &of_times)?;
         let keys = lines.iter().map(|line| &*line.key);
-        write(&index::path(&self.folder, &part), index::bytes(text.len() as u64, keys))?;
+        write_bytes(&index::path(&self.folder, &part), &index::bytes(text.len() as u64, keys))?;
         write(&part, &text)
     }
 
@@ -136,7 +136,7 @@ impl Store {
     /// # Errors
     /// It cannot be written.
     pub fn choose_chunk_points(&self, plan: &str, points: usize) -> Result<()> {
-        write(&self.chunk_path(plan), format!("{points}\n"))
+        write(&self.chunk_path(plan), &format!("{points}\n"))
     }
 
     fn chunk_path(&self, plan: &str) -> PathBuf {
@@ -280,6 +280,12 @@ fn copy(from: &Path, to: &Path) -> io::Result<()> {
 }
 
 /// Writes a file whole or not at all.
-pub(crate) fn write(path: &Path, bytes: impl AsRef<[u8]>) -> Result<()> {
-    hapticore_files::write(path, bytes).map_err(|error| anyhow!("{}: {error}", path.display()))
+pub(crate) fn write(path: &Path, text: &str) -> Result<()> {
+    write_bytes(path, text.as_bytes())
+}
+
+/// As [`write`], of any bytes.
+pub(crate) fn write_bytes(path: &Path, bytes: &[u8]) -> Result<()> {
+    hapticore_files::write_bytes(path, bytes)
+        .map_err(|error| anyhow!("{}: {error}", path.display()))
 }
