@@ -110,7 +110,7 @@ pub fn write(path: &Path, text: &str) -> io::Result<()> {
 /// Writes a whole file of any bytes.
 ///
 /// # Errors
-/// As [`write`].
+/// As [`write()`].
 pub fn write_bytes(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let partial = AtomicFile::create(path)?;
     partial.reopen()?.write_all(bytes)?;

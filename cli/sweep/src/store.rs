@@ -284,7 +284,7 @@ pub(crate) fn write(path: &Path, text: &str) -> Result<()> {
     write_bytes(path, text.as_bytes())
 }
 
-/// As [`write`], of any bytes.
+/// As [`write()`], of any bytes.
 pub(crate) fn write_bytes(path: &Path, bytes: &[u8]) -> Result<()> {
     hapticore_files::write_bytes(path, bytes)
         .map_err(|error| anyhow!("{}: {error}", path.display()))

@@ -204,3 +204,32 @@ fn nothing_cites_a_document_that_is_not_here() {
     }
     assert!(errors.is_empty(), "{}", errors.join("\n"));
 }
+
+/// Set by the system, by cargo, or by a test program for itself.
+const NOT_FOR_USERS: [&str; 7] = [
+    "PATH",
+    "HOSTNAME",
+    "COMPUTERNAME",
+    "OPT_LEVEL",
+    "HAPTICORE_MUTANT",
+    "HAPTICORE_MUTANTS",
+    "HAPTICORE_PLANTED",
+];
+
+#[test]
+fn contributing_lists_the_variables_that_tests_read() {
+    let (listed, mut read_by_tests) = (read("CONTRIBUTING.md"), BTreeSet::new());
+    for path in files(&[".rs"]) {
+        let text = read(path);
+        let calls = ["env::var(\"", "env::var_os(\"", "given(\"", "number(\""];
+        let names = calls.iter().flat_map(|call| text.split(call).skip(1));
+        let names = names.filter_map(|rest| rest.split('"').next());
+        let is_variable = |name: &&str| name.chars().all(|c| c.is_ascii_uppercase() || c == '_');
+        read_by_tests.extend(names.filter(is_variable).map(str::to_owned));
+    }
+    assert!(read_by_tests.len() > 15, "variables are found");
+    for name in read_by_tests.iter().filter(|name| !NOT_FOR_USERS.contains(&name.as_str())) {
+        let is_listed = ["=", "`"].iter().any(|end| listed.contains(&format!("`{name}{end}")));
+        assert!(is_listed, "CONTRIBUTING.md lacks {name}");
+    }
+}
