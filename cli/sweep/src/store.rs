@@ -147,7 +147,7 @@ impl Store {
     ///
     /// # Errors
     /// As [`Claim::take`].
-    pub fn claim(&self, plan: &str, name: impl Display) -> Result<Option<Claim>> {
+    pub(crate) fn claim(&self, plan: &str, name: impl Display) -> Result<Option<Claim>> {
         Claim::take(&self.claim_path(plan, name))
     }
 
@@ -155,7 +155,7 @@ impl Store {
     ///
     /// # Errors
     /// As [`Claim::wait`].
-    pub fn wait_for_claim(&self, plan: &str, name: impl Display) -> Result<Claim> {
+    pub(crate) fn wait_for_claim(&self, plan: &str, name: impl Display) -> Result<Claim> {
         Claim::wait(&self.claim_path(plan, name))
     }
 
