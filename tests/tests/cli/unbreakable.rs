@@ -12,6 +12,7 @@ use std::thread::sleep;
 use std::time::{Duration, Instant};
 
 use fastrand::Rng;
+use hapticore_tests::fuzz::commands::run::is_cut_short;
 
 /// Seconds within which any input is refused, on a machine that does other work, too.
 const SECONDS: u32 = 60;
@@ -265,20 +266,7 @@ fn check_whole(folder: &Path) -> [usize; 2] {
         } else {
             counts[0] += 1;
             let bytes = fs::read(&path).unwrap();
-            let end: &[u8] = match path.extension().and_then(|of| of.to_str()) {
-                Some("json") => b"}",
-                Some("parquet") => b"PAR1",
-                Some("html") => b"</html>",
-                _ => b"",
-            };
-            let text = bytes.strip_suffix(b"\n").unwrap_or(&bytes);
-            let is_whole = match path.extension().and_then(|of| of.to_str()) {
-                // A head of eight bytes and sixteen for each point; a claim is empty.
-                Some("index") => bytes.len() % 16 == 8,
-                Some("claim") => bytes.is_empty(),
-                _ => text.ends_with(end) && (!end.is_empty() || text.len() < bytes.len()),
-            };
-            assert!(is_whole, "{} is cut short", path.display());
+            assert!(!is_cut_short(&path, &bytes), "{} is cut short", path.display());
         }
     }
     counts

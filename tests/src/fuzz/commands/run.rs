@@ -143,16 +143,7 @@ pub fn unfinished(path: &Path) -> Option<String> {
         return Some(format!("leaves {}", path.display()));
     }
     let bytes = fs::read(path).ok()?;
-    let end: &[u8] = match path.extension().and_then(|of| of.to_str()) {
-        Some("json") => b"}",
-        Some("parquet") => b"PAR1",
-        Some("html") => b"</html>",
-        // Formats whose end has no mark.
-        Some("wav" | "fst" | "sigmf-data") => return None,
-        _ => b"\n",
-    };
-    let text = bytes.strip_suffix(b"\n").filter(|_| end != b"\n").unwrap_or(&bytes);
-    if !text.ends_with(end) {
+    if is_cut_short(path, &bytes) {
         return Some(format!("{} is cut short", path.display()));
     }
     let table = path.extension().is_some_and(|of| of == "csv");
@@ -161,4 +152,22 @@ pub fn unfinished(path: &Path) -> Option<String> {
     let lines = String::from_utf8_lossy(&bytes);
     let line = lines.lines().find(wrong).filter(|_| table)?;
     Some(format!("{}: no number in {line}", path.display()))
+}
+
+/// Whether a file is not whole: text ends with a line, other formats with what they end with.
+pub fn is_cut_short(path: &Path, bytes: &[u8]) -> bool {
+    let end: &[u8] = match path.extension().and_then(|of| of.to_str()) {
+        Some("json") => b"}",
+        Some("parquet") => b"PAR1",
+        Some("html") => b"</html>",
+        // A head of eight bytes, and sixteen for each point of a store's part.
+        Some("index") => return bytes.len() % 16 != 8,
+        // A lock: nothing is in it.
+        Some("claim") => return !bytes.is_empty(),
+        // Formats whose end has no mark.
+        Some("wav" | "fst" | "sigmf-data") => return false,
+        _ => b"\n",
+    };
+    let text = bytes.strip_suffix(b"\n").filter(|_| end != b"\n").unwrap_or(bytes);
+    !text.ends_with(end)
 }
