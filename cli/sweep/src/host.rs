@@ -9,8 +9,9 @@ use anyhow::{Context, Result, bail};
 use serde::{Deserialize, Serialize};
 
 use crate::canonical;
+use crate::part::write;
 use crate::result::Line;
-use crate::store::{Store, write};
+use crate::store::Store;
 
 /// A plan's first point as a host runs it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
 
-use crate::store::{Part, write_bytes};
+use crate::part::{Part, write_bytes};
 
 /// The first half of a point's name: two of 10⁷ points share it once in 10²⁴ stores.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]

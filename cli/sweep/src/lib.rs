@@ -12,7 +12,7 @@
 //! | [`point`] | a plan's points and their names |
 //! | [`canonical`] | canonical JSON and its hash |
 //! | [`run`], [`result`](mod@result) | a point run; the line that it leaves |
-//! | [`store`], `index`, `claim` | the folder of results; the points of each part; chunks that a runner is at |
+//! | [`store`], `part`, `index`, `claim` | the folder of results; a file of it; the points of each; chunks that a runner is at |
 //! | [`host`] | whether a host makes the same bytes as others |
 //! | [`work`] | chunks of points, run on all threads or one at a time |
 //! | [`collect`] | results sorted, missing and failed points, the Pareto front |
@@ -29,6 +29,7 @@ pub mod host;
 mod index;
 #[cfg(feature = "parquet")]
 mod parquet;
+mod part;
 pub mod plan;
 pub mod point;
 pub mod result;

@@ -125,7 +125,10 @@ impl Plan {
     fn of(file: &File, lines: &Lines) -> Result<Plan> {
         let scene_text = scene_text(file, lines)?;
         let scene = Scene::parse(&scene_text.text, &scene_text.file, &[])?;
-        let named = file.profile.as_ref().map(|name| beside(lines.name(), name.get_ref()));
+        let named = file.profile.as_ref().map(|name| match Profile::bundled(name.get_ref()) {
+            Ok(_) => name.get_ref().clone(),
+            Err(_) => beside(lines.name(), name.get_ref()),
+        });
         let profile = inputs::profile(named.as_ref().unwrap_or(&scene.profile))
             .with_context(|| lines.at(&file.profile, "profile"))?;
         let case = match &file.case {
@@ -252,14 +255,16 @@ fn core_hash(profile: &Profile) -> Result<String> {
     Ok(blake3::hash(design.text().as_bytes()).to_hex().to_string())
 }
 
+/// The scene's text. Its file is called as the plan has it, so that a plan is the same from whatever folder it is run.
 fn scene_text(file: &File, lines: &Lines) -> Result<SceneText> {
-    let name = &beside(lines.name(), file.scene.get_ref());
+    let name = file.scene.get_ref();
     if let Some(text) = gallery::find(name) {
         return Ok(SceneText { file: format!("{name}.toml"), text: text.into() });
     }
+    let path = beside(lines.name(), name);
     // As every command, with its message where it is neither.
-    inputs::scene(name, &[]).with_context(|| lines.at(&Some(file.scene.clone()), "scene"))?;
-    Ok(SceneText { file: name.clone(), text: read(Path::new(name))? })
+    inputs::scene(&path, &[]).with_context(|| lines.at(&Some(file.scene.clone()), "scene"))?;
+    Ok(SceneText { file: name.clone(), text: read(Path::new(&path))? })
 }
 
 /// A file that a plan names, whose path is relative to the plan's own folder; any other name as it is.

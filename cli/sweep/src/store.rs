@@ -17,13 +17,15 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result, anyhow, ensure};
+use anyhow::{Context, Result, ensure};
 use hapticore_files::AtomicFile;
 use rayon::prelude::*;
 
 use crate::canonical;
 use crate::claim::Claim;
 use crate::index::{self, Asked};
+pub use crate::part::Torn;
+use crate::part::{Part, write, write_bytes};
 use crate::plan::Plan;
 use crate::result::{Line, Times};
 
@@ -40,24 +42,6 @@ pub struct Contents {
     pub lines: BTreeMap<String, Line>,
     /// Files and lines that cannot be read; their points count as missing.
     pub torn: Vec<Torn>,
-}
-
-/// A part with lines that cannot be read.
-#[derive(Debug)]
-pub struct Torn {
-    /// The file.
-    pub path: PathBuf,
-    /// What is wrong: `FILE:LINE: what`.
-    pub message: String,
-    /// Its good lines.
-    good: String,
-}
-
-/// A part as it was read.
-pub(crate) struct Part {
-    path: PathBuf,
-    pub lines: Vec<Line>,
-    pub torn: Option<Torn>,
 }
 
 impl Store {
@@ -247,45 +231,9 @@ impl Store {
     }
 }
 
-impl Part {
-    pub fn read(path: PathBuf) -> Result<Part> {
-        let bytes = fs::read(&path).with_context(|| path.display().to_string())?;
-        let (mut lines, mut good, mut wrong) = (Vec::new(), String::new(), None);
-        for (n, bytes) in bytes.split_inclusive(|byte| *byte == b'\n').enumerate() {
-            let text = std::str::from_utf8(bytes).map_err(|error| error.to_string());
-            let whole = text.and_then(|text| {
-                text.strip_suffix('\n').ok_or_else(|| "the line has no end".to_string())
-            });
-            match whole.and_then(|text| Ok((Line::read(text)?, text))) {
-                Ok((line, text)) => {
-                    lines.push(line);
-                    good += text;
-                    good.push('\n');
-                }
-                Err(what) => {
-                    wrong.get_or_insert_with(|| format!("{}:{}: {what}", path.display(), n + 1));
-                }
-            }
-        }
-        let torn = wrong.map(|message| Torn { path: path.clone(), message, good });
-        Ok(Part { path, lines, torn })
-    }
-}
-
 /// Copies a file whole or not at all.
 fn copy(from: &Path, to: &Path) -> io::Result<()> {
     let copied = AtomicFile::create(to)?;
     fs::copy(from, copied.partial_path())?;
     copied.persist()
-}
-
-/// Writes a file whole or not at all.
-pub(crate) fn write(path: &Path, text: &str) -> Result<()> {
-    write_bytes(path, text.as_bytes())
-}
-
-/// As [`write()`], of any bytes.
-pub(crate) fn write_bytes(path: &Path, bytes: &[u8]) -> Result<()> {
-    hapticore_files::write_bytes(path, bytes)
-        .map_err(|error| anyhow!("{}: {error}", path.display()))
 }

@@ -2,7 +2,6 @@
 //! Work: chunks of a plan's points, each of some seconds, run and stored.
 
 use std::collections::{BTreeMap, HashSet};
-use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
@@ -87,7 +86,7 @@ impl<'a> Work<'a> {
     ///
     /// # Errors
     /// A store that cannot be read or written.
-    pub fn missing(&self, from: Range<usize>) -> Result<Vec<usize>> {
+    pub fn missing(&self, from: impl IntoParallelIterator<Item = usize>) -> Result<Vec<usize>> {
         let named = |index: usize| (index, self.names.of(&self.plan.point(index)));
         let all: Vec<(usize, String)> = from.into_par_iter().map(named).collect();
         let present = self.store.contents_about(all.iter().map(|(_, key)| &**key))?;
@@ -143,23 +142,18 @@ impl<'a> Work<'a> {
             "expected a chunk within the plan's {} points, got {range:?}",
             self.plan.len()
         );
-        let claim = self.store.wait_for_claim(&self.plan_name, chunk.first)?;
-        self.run_claimed(range, &claim, progress)
-    }
-
-    fn run_claimed(
-        &self,
-        range: Range<usize>,
-        _: &Claim,
-        progress: &(dyn Fn() + Sync),
-    ) -> Result<usize> {
-        // What another runner has stored until now counts.
-        let mut missing = self.missing(range)?;
+        let _claim = self.store.wait_for_claim(&self.plan_name, chunk.first)?;
+        let missing = self.missing(range)?;
         if !missing.is_empty() {
             self.check_host()?;
         }
-        self.plan.group_by_bench(&mut missing);
-        self.run(&missing, || true, progress)
+        self.run_grouped(missing, progress)
+    }
+
+    /// Runs points so that those which share a bench follow one another.
+    fn run_grouped(&self, mut points: Vec<usize>, progress: &(dyn Fn() + Sync)) -> Result<usize> {
+        self.plan.group_by_bench(&mut points);
+        self.run(&points, || true, progress)
     }
 
     fn check_host(&self) -> Result<()> {
@@ -178,26 +172,26 @@ impl<'a> Work<'a> {
         self.check_host()?;
         let share = self.plan.len().div_ceil(SHARE * rayon::current_num_threads());
         let size = self.chunk_points(missing, share)?;
-        let mut chunks: BTreeMap<usize, usize> = BTreeMap::new();
-        missing.iter().for_each(|index| *chunks.entry(index / size * size).or_default() += 1);
-        let run = |(first, asked): (usize, usize), claim: Claim| -> Result<()> {
-            let end = self.plan.len().min(first + size);
-            let ran = self.run_claimed(first..end, &claim, progress)?;
-            // The others are there by now.
-            (ran..asked).for_each(|_| progress());
-            Ok(())
+        let mut chunks: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+        missing.iter().for_each(|index| chunks.entry(index / size).or_default().push(*index));
+        let run = |points: &[usize], _claim: Claim| -> Result<()> {
+            // What another runner has stored until now counts.
+            let left = self.missing(points.to_vec())?;
+            (left.len()..points.len()).for_each(|_| progress());
+            self.run_grouped(left, progress).map(drop)
         };
-        let run_or_leave =
-            |chunk: (usize, usize)| match self.store.claim(&self.plan_name, chunk.0)? {
-                Some(claim) => run(chunk, claim).map(|()| None),
-                None => Ok(Some(chunk)),
-            };
+        let run_or_leave = |(number, points): (usize, Vec<usize>)| -> Result<_> {
+            match self.store.claim(&self.plan_name, number * size)? {
+                Some(claim) => run(&points, claim).map(|()| None),
+                None => Ok(Some((number, points))),
+            }
+        };
         let chunks: Vec<_> = chunks.into_iter().collect();
         let left = chunks.into_par_iter().with_max_len(1).map(run_or_leave);
         let left: Vec<_> = left.collect::<Result<_>>()?;
-        left.into_iter()
-            .flatten()
-            .try_for_each(|chunk| run(chunk, self.store.wait_for_claim(&self.plan_name, chunk.0)?))
+        left.into_iter().flatten().try_for_each(|(number, points)| {
+            run(&points, self.store.wait_for_claim(&self.plan_name, number * size)?)
+        })
     }
 
     /// How many points make a chunk: what the store's first runner has found, at most `most`.
