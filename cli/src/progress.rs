@@ -50,7 +50,9 @@ fn print_lines(bar: &ProgressBar) {
         loop {
             thread::sleep(LINE);
             match bar.upgrade() {
-                Some(bar) if !bar.is_finished() => complain(format_args!("{}", line(&bar))),
+                Some(bar) if !bar.is_finished() => {
+                    complain(format_args!("progress: {}", line(&bar)))
+                }
                 _ => return,
             }
         }

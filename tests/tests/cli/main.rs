@@ -31,7 +31,14 @@ use std::process::{Command, Output};
 
 /// Runs the command from within `folder`.
 fn hapticore(folder: &Path, args: &[&str]) -> Output {
-    command(folder, args).output().expect("the command starts")
+    let output = command(folder, args).output().expect("the command starts");
+    Output { stderr: without_progress(&output.stderr), ..output }
+}
+
+/// What standard error says beside progress, of which a slow machine has more.
+fn without_progress(log: &[u8]) -> Vec<u8> {
+    let lines = log.split_inclusive(|byte| *byte == b'\n');
+    lines.filter(|line| !line.starts_with(b"progress: ")).flatten().copied().collect()
 }
 
 fn command(folder: &Path, args: &[&str]) -> Command {

@@ -31,7 +31,7 @@ fn refuse(folder: &Path, line: &str, words: &[&str]) {
         .current_dir(folder)
         .output()
         .expect("a shell");
-    let log = String::from_utf8(output.stderr).expect("text");
+    let log = String::from_utf8(crate::without_progress(&output.stderr)).expect("text");
     assert_eq!(output.status.code(), Some(2), "{line}: {log}");
     assert!(log.lines().count() == 1 && log.len() < 10_000, "{line}: one line, got {log}");
     for word in words {
