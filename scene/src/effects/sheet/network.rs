@@ -16,9 +16,6 @@
 //!
 //!   φ_i = φ⁰_i + Σ K_ij·s_j,   w_i = g·φ_i − s_i,   R_i·w_i = φ_i   ⇒   R_i·s_i − (g·R_i − 1)·Σ K_ij·s_j = (g·R_i − 1)·φ⁰_i
 
-use faer::Mat;
-use faer::sparse::{SparseColMat, Triplet};
-
 use super::factor::{Factor, Half};
 use super::geometry::Sheet;
 use super::lattice::Lattice;
@@ -39,10 +36,9 @@ pub(crate) enum Correction {
 /// A mesh whose matrix is factored, with its terminals.
 pub(crate) struct Network {
     pub mesh: Mesh,
-    terminals: Vec<Spread>,
     factor: Factor,
     /// A⁻¹ from each terminal to each node.
-    fields: Mat<f64>,
+    fields: Vec<Vec<f64>>,
     /// Extra currents s by the potentials φ⁰ that the dummies alone leave at the terminals.
     extra: Square<f64>,
     /// Shares w by the same.
@@ -63,26 +59,23 @@ impl Network {
             sheet.terminals_m.iter().map(|place| mesh.spread(*place)).collect();
         let dummy = 1.0 / sheet.film.ohm_per_square;
         let factor = factor(&mesh, &mesh.conductances(&sheet.film), &terminals, dummy);
-        let mut fields = Mat::zeros(mesh.nodes(), terminals.len());
-        for (terminal, nodes) in terminals.iter().enumerate() {
-            numbered(&mesh, nodes).for_each(|(node, weight)| fields[(node, terminal)] = weight);
-        }
-        factor.solve_in_place(fields.as_mut());
+        let fields: Vec<Vec<f64>> =
+            terminals.iter().map(|nodes| field(&factor, &mesh, nodes)).collect();
         let wrong = match correction {
             Correction::Peaceman => wrong(sheet, &mesh, &terminals),
             #[cfg(test)]
             Correction::None => Square::of(terminals.len(), |_, _| 0.0),
         };
-        let at = |nodes: &Spread, j| numbered(&mesh, nodes).map(|(n, w)| w * fields[(n, j)]).sum();
+        let at =
+            |nodes: &Spread, j: usize| numbered(&mesh, nodes).map(|(n, w)| w * fields[j][n]).sum();
         let between = Square::of(terminals.len(), |i, j| at(&terminals[i], j));
         let (extra, share) = fold(&between, &wrong, &sheet.terminal_ohm, dummy);
-        Network { mesh, terminals, factor, fields, extra, share }
+        Network { mesh, factor, fields, extra, share }
     }
 
     /// The share of each terminal in a current that is fed in at a node.
     pub fn share(&self, node: usize) -> Values {
-        let alone: Values =
-            (0..self.terminals.len()).map(|terminal| self.fields[(node, terminal)]).collect();
+        let alone: Values = self.fields.iter().map(|field| field[node]).collect();
         self.share.rows().map(|row| dot(row, &alone)).collect()
     }
 
@@ -107,11 +100,10 @@ impl Network {
 
     /// φ⁰ at the terminals for a unit current into some nodes; the matrix is symmetric.
     fn alone(&self, source: &Spread) -> Values {
-        let field = |terminal| {
-            let nodes = numbered(&self.mesh, source);
-            nodes.map(|(node, weight)| weight * self.fields[(node, terminal)]).sum()
+        let at = |field: &Vec<f64>| {
+            numbered(&self.mesh, source).map(|(node, weight)| weight * field[node]).sum()
         };
-        (0..self.terminals.len()).map(field).collect()
+        self.fields.iter().map(at).collect()
     }
 
     fn extra(&self, alone: &[f64]) -> Values {
@@ -140,21 +132,23 @@ fn factor(
     terminals: &[Spread],
     dummy: f64,
 ) -> Factor {
-    let mut entries = Vec::with_capacity(3 * conductances.len() + terminals.len());
+    let mut entries = Vec::with_capacity(4 * conductances.len() + terminals.len());
     for &(a, b, siemens) in conductances {
-        entries.extend([Triplet::new(a, a, siemens), Triplet::new(b, b, siemens)]);
-        entries.push(Triplet::new(a.max(b), a.min(b), -siemens));
+        entries.extend([(a, a, siemens), (b, b, siemens), (a, b, -siemens), (b, a, -siemens)]);
     }
     for nodes in terminals {
         let pairs = numbered(mesh, nodes).flat_map(|a| numbered(mesh, nodes).map(move |b| (a, b)));
-        let below = pairs.filter(|((a, _), (b, _))| a >= b);
-        entries.extend(below.map(|((a, f), (b, g))| Triplet::new(a, b, dummy * f * g)));
+        entries.extend(pairs.map(|((a, f), (b, g))| (a, b, dummy * f * g)));
     }
-    let matrix =
-        SparseColMat::<usize, f64>::try_new_from_triplets(mesh.nodes(), mesh.nodes(), &entries);
-    let matrix = matrix.expect("every entry lies within the matrix");
-    Factor::new(&matrix, mesh.dissected())
+    Factor::new(&entries, &mesh.dissected())
         .expect("conductances and dummies are positive, and the mesh is connected")
+}
+
+/// A⁻¹ from a terminal to each node.
+fn field(factor: &Factor, mesh: &Mesh, terminal: &Spread) -> Vec<f64> {
+    let mut current = vec![0.0; mesh.nodes()];
+    numbered(mesh, terminal).for_each(|(node, weight)| current[node] = weight);
+    factor.solve(&current)
 }
 
 /// s and w by φ⁰, as the module says.
