@@ -342,6 +342,7 @@ impl Value for Node {
         wire(Op::Abs(a.value), to)
     }
 
+    #[inline(never)]
     fn quantize(a: Signal<Self>, to: Format, rounding: Rounding, overflow: Overflow) -> Self {
         if a.format == to { a.value } else { wire(Op::Fit(a.value, rounding, overflow), to) }
     }

@@ -173,7 +173,7 @@ pub trait Value: Copy + std::fmt::Debug + 'static {
 /// A constant by its code.
 #[inline(always)]
 pub fn code<V: Value>(code: i64, format: Format) -> Signal<V> {
-    Signal { value: V::raw(code, format), format }
+    operate(|| Signal { value: V::raw(code, format), format })
 }
 
 /// A signal of this format with the value 0.
@@ -223,6 +223,18 @@ pub fn is_known<V: Value>(bit: &Signal<V>) -> bool {
 #[inline(always)]
 pub fn decides<V: Value>(_signal: &Signal<V>) -> bool {
     V::DECIDES
+}
+
+/// An operation in line where a core is clocked, out of line where blocks are elaborated: there, blocks in one piece
+/// took half of the time in which this workspace's tests are compiled.
+#[inline(always)]
+fn operate<V: Value>(operation: impl FnOnce() -> Signal<V>) -> Signal<V> {
+    if V::ELABORATES { out_of_line(operation) } else { operation() }
+}
+
+#[inline(never)]
+fn out_of_line<T>(operation: impl FnOnce() -> T) -> T {
+    operation()
 }
 
 #[cold]
@@ -295,6 +307,11 @@ impl<V: Value> Signal<V> {
     /// alike.
     #[inline(always)]
     fn beyond(self, to: Format) -> Self {
+        operate(|| self.has_unlike_bits(to))
+    }
+
+    #[inline(always)]
+    fn has_unlike_bits(self, to: Format) -> Self {
         let Format { signed, width, .. } = self.format;
         let low = to.width - u8::from(to.signed);
         if width <= low {
@@ -310,7 +327,7 @@ impl<V: Value> Signal<V> {
     /// The same bits with the point moved: the number times `2^by`.
     #[inline(always)]
     pub fn scaled(self, by: i8) -> Self {
-        Signal { value: V::scale(self.value, by), format: self.format.scaled(by) }
+        operate(|| Signal { value: V::scale(self.value, by), format: self.format.scaled(by) })
     }
 
     /// The code as an integer: the number times `2^frac`.
@@ -330,24 +347,30 @@ impl<V: Value> Signal<V> {
     /// The magnitude; that of the most negative code too.
     #[inline(always)]
     pub fn abs(self) -> Self {
-        let to = Format::unsigned(self.format.width, self.format.frac);
-        Signal { value: V::abs(self, to), format: to }
+        operate(|| {
+            let to = Format::unsigned(self.format.width, self.format.frac);
+            Signal { value: V::abs(self, to), format: to }
+        })
     }
 
     /// The exact square; 2B + 1 bits hold that of the most negative code.
     #[inline(always)]
     pub fn square(self) -> Self {
-        let product = self.format.product(self.format);
-        let to = Format::unsigned(product.width - u8::from(self.format.signed), product.frac);
-        Signal { value: V::square(self, to), format: to }
+        operate(|| {
+            let product = self.format.product(self.format);
+            let to = Format::unsigned(product.width - u8::from(self.format.signed), product.frac);
+            Signal { value: V::square(self, to), format: to }
+        })
     }
 
     /// `width` bits of the code from bit `low` up, as an unsigned integer. Bits beyond the word are zero, or
     /// copies of its sign.
     #[inline(always)]
     pub fn bits(self, low: u8, width: u8) -> Self {
-        let to = Format::unsigned(width, 0);
-        Signal { value: V::bits(self, low, to), format: to }
+        operate(|| {
+            let to = Format::unsigned(width, 0);
+            Signal { value: V::bits(self, low, to), format: to }
+        })
     }
 
     /// The most significant bit.
@@ -359,14 +382,16 @@ impl<V: Value> Signal<V> {
     /// This unsigned integer, with `low` to the right of it.
     #[inline(always)]
     pub fn concat(self, low: Self) -> Self {
-        let to = Format::unsigned(self.format.width + low.format.width, 0);
-        Signal { value: V::concat(self, low, to), format: to }
+        operate(|| {
+            let to = Format::unsigned(self.format.width + low.format.width, 0);
+            Signal { value: V::concat(self, low, to), format: to }
+        })
     }
 
     /// Whether this is less than `other`.
     #[inline(always)]
     pub fn less_than(self, other: Self) -> Self {
-        Signal { value: V::less(self, other), format: BIT }
+        operate(|| Signal { value: V::less(self, other), format: BIT })
     }
 
     /// Whether this is at least `other`.
@@ -378,28 +403,32 @@ impl<V: Value> Signal<V> {
     /// Whether this equals `other`.
     #[inline(always)]
     pub fn equals(self, other: Self) -> Self {
-        Signal { value: V::equal(self, other), format: BIT }
+        operate(|| Signal { value: V::equal(self, other), format: BIT })
     }
 
     /// Whether this equals the integer `other`.
     #[inline(always)]
     pub fn is(self, other: u64) -> Self {
-        self.equals(int(other))
+        operate(|| self.equals(int(other)))
     }
 
     /// The lesser of this and `most`, which has the same format.
     #[inline(always)]
     pub fn at_most(self, most: Self) -> Self {
-        debug_assert!(self.format == most.format);
-        Signal { value: V::at_most(self, most), ..self }
+        operate(|| {
+            debug_assert!(self.format == most.format);
+            Signal { value: V::at_most(self, most), ..self }
+        })
     }
 
     /// `a` where this bit is set, else `b`.
     #[inline(always)]
     pub fn select(self, a: Self, b: Self) -> Self {
-        debug_assert!(self.format == BIT);
-        let to = a.format.join(b.format);
-        Signal { value: V::select(self.value, a, b, to), format: to }
+        operate(|| {
+            debug_assert!(self.format == BIT);
+            let to = a.format.join(b.format);
+            Signal { value: V::select(self.value, a, b, to), format: to }
+        })
     }
 
     /// See [`Value::golden`].

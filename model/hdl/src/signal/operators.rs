@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The operators of signals: exact, with the format inferred from the operands.
 
-use super::{Signal, Value};
+use super::{Signal, Value, operate};
 use crate::format::BIT;
 use std::ops::{Add, BitAnd, BitOr, Mul, Neg, Not, Sub};
 
@@ -9,8 +9,10 @@ impl<V: Value> Add for Signal<V> {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: Self) -> Self {
-        let to = self.format.sum(other.format);
-        Signal { value: V::add(self, other, to), format: to }
+        operate(|| {
+            let to = self.format.sum(other.format);
+            Signal { value: V::add(self, other, to), format: to }
+        })
     }
 }
 
@@ -18,8 +20,10 @@ impl<V: Value> Sub for Signal<V> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
-        let to = self.format.difference(other.format);
-        Signal { value: V::sub(self, other, to), format: to }
+        operate(|| {
+            let to = self.format.difference(other.format);
+            Signal { value: V::sub(self, other, to), format: to }
+        })
     }
 }
 
@@ -27,8 +31,10 @@ impl<V: Value> Mul for Signal<V> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
-        let to = self.format.product(other.format);
-        Signal { value: V::mul(self, other, to), format: to }
+        operate(|| {
+            let to = self.format.product(other.format);
+            Signal { value: V::mul(self, other, to), format: to }
+        })
     }
 }
 
@@ -45,8 +51,10 @@ impl<V: Value> Not for Signal<V> {
     type Output = Self;
     #[inline(always)]
     fn not(self) -> Self {
-        debug_assert!(self.format == BIT);
-        Signal { value: V::not(self.value), format: BIT }
+        operate(|| {
+            debug_assert!(self.format == BIT);
+            Signal { value: V::not(self.value), format: BIT }
+        })
     }
 }
 
@@ -54,8 +62,10 @@ impl<V: Value> BitAnd for Signal<V> {
     type Output = Self;
     #[inline(always)]
     fn bitand(self, other: Self) -> Self {
-        debug_assert!(self.format == BIT && other.format == BIT);
-        Signal { value: V::and(self.value, other.value), format: BIT }
+        operate(|| {
+            debug_assert!(self.format == BIT && other.format == BIT);
+            Signal { value: V::and(self.value, other.value), format: BIT }
+        })
     }
 }
 
@@ -63,7 +73,9 @@ impl<V: Value> BitOr for Signal<V> {
     type Output = Self;
     #[inline(always)]
     fn bitor(self, other: Self) -> Self {
-        debug_assert!(self.format == BIT && other.format == BIT);
-        Signal { value: V::or(self.value, other.value), format: BIT }
+        operate(|| {
+            debug_assert!(self.format == BIT && other.format == BIT);
+            Signal { value: V::or(self.value, other.value), format: BIT }
+        })
     }
 }
