@@ -2,9 +2,9 @@
 //! A sparse positive definite matrix A = L·Lᵀ, factored: solutions, and energies fᵀ·A⁻¹·f = |L⁻¹f|².
 //!
 //! L is computed column by column from the left (George and Liu, *Computer Solution of Large Sparse
-//! Positive Definite Systems*, 1981, ch. 5): column j is that of A less l_jk times each earlier
-//! column k with l_jk ≠ 0, and is zero where A's column and the columns that j is the first row
-//! of are zero. The parent of a column in the elimination tree is the first row below its diagonal.
+//! Positive Definite Systems*, 1981, ch. 5). Column j is A's column j less l_jk times each earlier
+//! column k with l_jk ≠ 0. Its non-zero rows are those of A's column, and those of its children's
+//! columns. The parent of a column in the elimination tree is the first row below its diagonal.
 //!
 //! The energy of a few nodes needs only those columns of L that lie on the way from these nodes to
 //! the root of the elimination tree, and so do those of two sources, f_aᵀ·A⁻¹·f_b = (L⁻¹f_a)·(L⁻¹f_b).
