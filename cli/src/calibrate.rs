@@ -41,8 +41,8 @@ pub fn run(args: &CalibrateArgs) -> Result<bool> {
     Ok(true)
 }
 
-/// The calibration of data, made on a thread of its own: equations of many places take half a minute, in which
-/// a run that is told to stop stops.
+/// The calibration of data, computed on a thread of its own: equations of many places take half a minute, in
+/// which an interrupted run stops.
 fn calibrated(data: Data, profile: Profile, quiet: bool) -> Result<(DeviceCalibration, Outcome)> {
     let bar = progress::work("calibrating", quiet);
     let work = thread::spawn(move || lab::calibrate(&data, &profile));

@@ -28,7 +28,8 @@ pub fn print(text: Arguments) {
     }
 }
 
-/// Prints a line to standard error, or nothing where that fails: nobody is left to tell.
+/// Prints a line to standard error, or nothing where that fails: there is no other stream to report
+/// it on.
 pub fn complain(text: Arguments) {
     let _ = writeln!(io::stderr(), "{text}");
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Where results go where nobody says: a folder of their own for each scene, capture and way to run
-//! it.
+//! Where results go by default: a folder of their own for each scene, capture and way to run it.
 //!
 //! | run | folder |
 //! | --- | --- |

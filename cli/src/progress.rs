@@ -12,7 +12,7 @@ use crate::console::complain;
 /// How often a line is printed where there is no terminal.
 const LINE: Duration = Duration::from_secs(10);
 
-/// A bar over so many `things`, none where unknown; hidden where `quiet`.
+/// A bar over `count` `things`, `None` where unknown; hidden where `quiet`.
 pub fn bar(count: Option<u64>, things: &str, quiet: bool) -> ProgressBar {
     let template = match count {
         Some(_) => "{bar:40} {pos}/{len} {msg}, {eta} left",

@@ -211,7 +211,7 @@ fn announce(args: &SimulateArgs, scene: &Scene, cases: &[Case]) -> Result<()> {
 
 type Capture = Option<Box<dyn Recorder + Send>>;
 
-/// Runs all cases at once; what they leave together.
+/// Runs all cases side by side; returns what they leave together.
 fn simulate(
     args: &SimulateArgs,
     scene: &Scene,

@@ -14,7 +14,7 @@ use rayon::prelude::*;
 
 use crate::print::number;
 
-/// Parts of the largest target at which a loop is looked at.
+/// Parts of the largest target at which a loop is evaluated.
 const PARTS: [f64; 2] = [0.5, 1.0];
 
 /// The most that a step may overshoot without a warning.

@@ -93,7 +93,7 @@ fn run_plan(places: &Places, threads: Option<u16>) -> Result<bool> {
     collect(places)
 }
 
-/// The error, or what is told instead where the user asked to stop.
+/// The error, or [`Stopped`] instead where the user asked to stop.
 fn stopped(error: anyhow::Error, store: &Store) -> anyhow::Error {
     match interrupt::check() {
         Err(_) => Stopped { store: store.folder().display().to_string() }.into(),

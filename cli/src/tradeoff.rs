@@ -43,7 +43,8 @@ pub struct Tradeoff {
     /// What one more bit would buy, of the profile that was found or else of the profile itself; where
     /// it was asked for.
     pub next_bits: Vec<NextBit>,
-    /// What synthesis makes of the profile, and of the one that was found; where it was asked for.
+    /// What synthesis makes of the profile, and of the profile that was found; where it was asked
+    /// for.
     pub synthesised: Vec<Synthesised>,
     /// Version, command and such.
     pub provenance: Provenance,
@@ -108,7 +109,7 @@ pub fn run(args: &TradeoffArgs) -> Result<bool> {
     Ok(tradeoff.found.as_ref().is_none_or(Found::holds))
 }
 
-/// The profile, and the one that was found, in the cells of both families.
+/// The profile, and the profile that was found, in the cells of both families.
 fn synthesised(
     profile: &Profile,
     itself: &Point,

@@ -5,7 +5,7 @@ use hapticore_host::{COLUMNS, Decoder, DeviceCalibration, Message, Readout, Slot
 use std::error::Error;
 use std::io::{self, BufReader, Read, Write};
 
-/// Converts until the bytes end; damaged packets are told on standard error.
+/// Converts until the bytes end; reports damaged packets on standard error.
 pub fn convert(files: [&str; 2], bytes: impl Read, csv: impl Write) -> Result<(), Box<dyn Error>> {
     let device = DeviceCalibration::read(files[1].as_ref())?;
     let profile = device.profile(&profile::load(files[0])?)?;

@@ -86,7 +86,8 @@ impl<'a> BringUp<'a> {
         BringUp { profile, calibration, output, before: 0, sent: 0, stage, waited: 0, codes }
     }
 
-    /// The first commands, for a board that has accepted so many before, modulo 16: none after its reset.
+    /// The first commands, for a board that has accepted `before` commands, modulo 16: none after its
+    /// reset.
     pub fn begin(&mut self, adc: &AdcSetup, before: u8) -> Vec<Command> {
         (self.before, self.sent) = (before, 0);
         (self.stage, self.waited) = (Stage::Prepared, 0);

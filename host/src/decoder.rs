@@ -8,7 +8,7 @@ use hapticore_contract::profile::Profile;
 /// Makes messages of bytes as they come. What it has lost it says, and the next END puts it right;
 /// it keeps at most one packet.
 ///
-/// Whoever begins to listen in the middle of a packet hears of one damaged packet first. Of packets
+/// A decoder that starts in the middle of a packet reports one damaged packet first. Of packets
 /// that are damaged at random the CRC lets one in 2³² pass. Where an END is lost, or bytes are
 /// heard that are none, the next packet is found by its length.
 ///

@@ -116,7 +116,7 @@ fn message(profile: &Profile, rng: &mut Rng) -> Message {
     Message::Frame(Packet { status, frame: Frame { pad, codes, flags: Flags::default() } })
 }
 
-/// So many garbled packets of each kind: how many of them the decoder takes for good ones.
+/// `packets` garbled packets of each kind: how many of them the decoder takes for good ones.
 fn accepted<C: Check>(profile: &Profile, seed: u64, packets: u64) -> [u64; GARBLES.len()] {
     let layout = Layout::new(profile);
     let (mut collector, mut rng) =

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What a PC beside a board needs, and nothing else: no simulator, no command, no Verilog.
 //!
-//! A board sends bytes. This library finds packets in them, turns the core's words into volts,
-//! picofarads, millimetres and newtons, and takes out what the pads did to each other; the other
-//! way, it sends a device's calibration to the board.
+//! A board sends bytes. This library finds packets in them, converts the core's words to volts,
+//! picofarads, millimetres and newtons, and cancels the crosstalk of the pads. In the other
+//! direction it sends a device's calibration to the board.
 //!
 //! ```text
 //! board ─ bytes ─ Decoder ─ Packet ─ Readout ─ Quantities, flags

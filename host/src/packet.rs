@@ -153,8 +153,8 @@ impl Heartbeat {
         Heartbeat { status, calibrated: false, version: VERSION, words, bits: layout.register_bits }
     }
 
-    /// The low bits of what was last written into a constant's register, as many as fit a word of a
-    /// frame, and how many these are; none of the other registers, which heartbeats do not tell.
+    /// The low bits of the value last written into a constant's register, as many as fit a word of
+    /// a frame, and their number. None of the other registers, which heartbeats do not report.
     pub fn register(&self, register: Register) -> Option<(u64, u8)> {
         let word = self.words[register.number()] as u64 & ((1 << self.bits) - 1);
         matches!(register, Register::Constant(_)).then_some((word, self.bits))

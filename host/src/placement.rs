@@ -21,7 +21,7 @@ pub struct Placement {
     ends_mm: [[f64; 2]; 2],
     pad_diameter_mm: Option<f64>,
     pads: Vec<Option<[f64; 2]>>,
-    /// So many of them in a row are parts of one pad.
+    /// This many of them in a row are parts of one pad.
     parts: usize,
 }
 

@@ -2,7 +2,7 @@
 //! The profile of a board: a bundled one or a file's, with the terminals and pads of a device.
 //!
 //! Values are checked against their ranges. Whether a core can be built of them is the concern of
-//! whoever builds it.
+//! its builder.
 
 use crate::text::{ReadError, read, with_key};
 use hapticore_contract::profile::{Profile, ProfileError};
@@ -77,7 +77,7 @@ pub enum TerminalsError {
         profile: String,
         /// Terminals of the device.
         device: usize,
-        /// Why the profile is invalid with so many terminals.
+        /// Why the profile is invalid with this number of terminals.
         source: ProfileError,
     },
 }

@@ -174,8 +174,8 @@ pub enum LineFault {
     },
 }
 
-/// Whether a board that has been sent so many commands, [`prepare`]'s first, may be enabled, `before` which it had
-/// accepted so many commands modulo 16 (none after its own reset). `output` is what it is to drive its pads with, where it
+/// Whether a board may be enabled after `commands` commands, [`prepare`]'s first. Before these it had accepted
+/// `before` commands modulo 16 (none after its own reset). `output` is what it is to drive its pads with, where it
 /// has a drive. The ADC's lines are not tested: see [`BringUp`](crate::bringup::BringUp).
 ///
 /// # Errors

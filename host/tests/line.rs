@@ -127,13 +127,13 @@ proptest! {
 /// What becomes of bytes on their way.
 #[derive(Debug, Clone, Copy)]
 enum Kind {
-    /// So many are lost.
+    /// This many are lost.
     Lost(usize),
-    /// So many come twice.
+    /// This many come twice.
     Doubled(usize),
     /// A bit of one is another.
     Flipped(u32),
-    /// So many come in the opposite order.
+    /// This many come in the opposite order.
     Reordered(usize),
 }
 

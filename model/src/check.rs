@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Whether a core can be built of a profile: its blocks are asked.
 //!
-//! The contract's [`Profile::check_values`] holds the ranges that a profile states of itself. Two
-//! questions are left that only blocks answer: whether every signal fits a word of the model
-//! ([`MAX_WIDTH`](hapticore_hdl::format::MAX_WIDTH)), which each says as it is built, and whether the clocks of a slot
-//! suffice.
+//! The contract's [`Profile::check_values`] holds the ranges that a profile states of itself. Only blocks answer the
+//! other two questions: whether every signal fits a word of the model
+//! ([`MAX_WIDTH`](hapticore_hdl::format::MAX_WIDTH)), and whether the clocks of a slot suffice. Each block answers the
+//! first as it is built.
 
 use crate::blocks::core::Core;
 use crate::blocks::demodulator::POLYPHASE_GAIN;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The sensing core, written once in the hardware language of [`hapticore_hdl`].
 //!
-//! ADC codes of the terminals' currents, of the sensing voltage and of the haptic voltage come in;
-//! for each pad in turn a frame goes out: current ratios, position, sheet resistance, capacitance,
-//! haptic force, and flags.
+//! The core takes ADC codes of the terminals' currents, of the sensing voltage and of the haptic
+//! voltage. For each pad in turn it outputs a frame: current ratios, position, sheet resistance,
+//! capacitance, haptic force, and flags.
 //!
 //! | module | holds |
 //! | --- | --- |

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A rust-hdl design of one's own around a block of this project: a meter that divides each pair of
-//! numbers it is given, and counts those whose quotient is below a half. The division is the core's
+//! its input numbers, and counts those whose quotient is below a half. The division is the core's
 //! divider, correctly rounded; the counting is rust-hdl's, with its widgets. Simulated here, and
 //! printed as Verilog with `--verilog`.
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The vectors that users of the Verilog have (`rtl/verilog/vectors/`) notice faults of hardware: missing resets and clears,
-//! sticky flags, bits held for a cycle, stale operands of the core of `small`, made in its netlist and clocked as it
-//! stands. What `rtl/verilog/cocotb/bench.v` compares is compared here.
+//! The vectors that users of the Verilog have (`rtl/verilog/vectors/`) notice faults of hardware: missing resets and
+//! clears, sticky flags, bits held for a cycle, stale operands. The faults are made in the netlist of the core of
+//! `small`, which is clocked as it stands. What `rtl/verilog/cocotb/bench.v` compares is compared here.
 //!
 //! `cargo test --profile checked -p hapticore-rtl --test vectors -- --ignored --nocapture` judges what does not obey `clear`,
 //! with `MUTANTS=all` every mutant.

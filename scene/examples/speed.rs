@@ -8,7 +8,7 @@ use std::time::Instant;
 
 use hapticore_scene::{Complex, Plant, Scene, SceneError, Timing};
 
-/// Slots of a measurement as amplitudes, and of one as samples; the best of so many measurements
+/// Slots of a measurement as amplitudes, and of one as samples; the best of `BEST_OF` measurements
 /// counts.
 const SLOTS: [usize; 2] = [2000, 100];
 const BEST_OF: usize = 5;
@@ -21,8 +21,8 @@ const PADS: &str = "title = \"speed\"\nduration_s = 10\n\
     [[pad]]\nposition_mm = [-60, 205]\n";
 
 /// What is measured: its name, what it is added to, what it adds, and what the prototype of
-/// docs/physics.md took, in milliseconds to build or for a second; there one patch of a gap, here
-/// 32.
+/// docs/physics.md took. The prototype's times are in milliseconds, to build or for a second, with
+/// one patch of a gap; here there are 32.
 const EFFECTS: &[(&str, &str, &str, &str)] = &[
     ("sheet distance", "", "[sheet]\nrung = \"distance\"\n", "10 ns a look-up: 0.006"),
     ("sheet bilinear", "", "[sheet]\nrung = \"bilinear\"\n", "0.9; 12 ns: 0.007"),

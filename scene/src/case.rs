@@ -16,7 +16,7 @@ use crate::timing::Timing;
 /// The most pads of a scene.
 const MOST_PADS: usize = 16;
 
-/// The most points of a sweep, every combination of all that a pad sweeps.
+/// The most points of a sweep, every combination of the quantities that a pad sweeps.
 const MOST_POINTS: usize = 10_000_000;
 
 /// Keys of a scene that say what is done with its device, and not what that is.
@@ -53,7 +53,7 @@ const UNEVEN: [&str; 2] = ["slope_percent", "patch"];
 pub struct Case {
     /// The case's name, `main` for a scene without cases.
     pub name: String,
-    /// The case as a scene of its own, in TOML, with all that it and `--set` set.
+    /// The case as a scene of its own, in TOML, with everything that it and `--set` set.
     pub document: String,
     /// The device in this case; its sample rate is not a number until a plant is built for a
     /// profile.

@@ -47,7 +47,7 @@ impl ControlLaw {
     }
 }
 
-/// How a core estimates the force that a controller is given.
+/// How a core estimates the force that a controller receives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ForceEstimate {
     /// Eq. 8, with one constant k.
@@ -66,7 +66,7 @@ pub enum DriveCurve {
     SquareRoot,
     /// V = K·F: with a wall, a voltage that goes with the depth.
     Linear,
-    /// The voltage that gives the force at rest under the nominal load.
+    /// The voltage that holds the force in steady state under the nominal load.
     Steady,
 }
 
@@ -79,7 +79,7 @@ const CURVES: [(&str, DriveCurve); 3] = [
 /// What a curve, a full scale or a cap may be.
 const LIMITS: Limits = Limits::within(1e-6, 1e6);
 
-/// α where the gain follows from the device: a correction without a filter swings at once.
+/// α where the gain follows from the device: a correction without a filter swings immediately.
 const FILTER: f64 = 0.2;
 
 /// A force controller as a scene asks for it.
@@ -101,8 +101,8 @@ pub struct ControlPlan {
     pub force: Option<ForceEstimate>,
     /// Which voltage goes with a force.
     pub curve: DriveCurve,
-    /// The curve is so many times the voltage that it says: with the inverse law, how far beyond it
-    /// the drive may go.
+    /// Factor on the curve's voltage; with the inverse law, how far beyond the curve the drive may
+    /// go.
     pub curve_factor: f64,
     /// Load at which the steady curve is measured, g. None where it is that of the case's pads.
     pub nominal_load_g: Option<f64>,

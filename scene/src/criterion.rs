@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Criteria: what a scene claims, measured by whoever runs it.
+//! Criteria: what a scene claims; the program that runs the scene measures them.
 //!
 //! ```toml
 //! [[criterion]]

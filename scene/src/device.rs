@@ -68,9 +68,9 @@ pub struct Device {
 }
 
 impl Device {
-    /// The device under a core: the sample rate is the whole multiple of the scene's carrier that is
-    /// nearest to its oscillator's samples per period, and the carrier what the oscillator makes of
-    /// it, 101 kHz for 100 kHz at 9.9 samples.
+    /// The device under a core. The sample rate is the whole multiple of the scene's carrier that is
+    /// nearest to its oscillator's samples per period. The carrier is what the oscillator makes of
+    /// it: 101 kHz for 100 kHz at 9.9 samples.
     pub(crate) fn sampled(self, timing: &Timing) -> Self {
         let samples_per_period = timing.samples_per_period;
         let sample_rate_hz = self.carrier_hz * samples_per_period.round();

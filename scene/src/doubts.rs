@@ -7,7 +7,7 @@ use crate::error::SceneError;
 use crate::format::Table;
 use crate::pad::PadPlan;
 
-/// Levels of `[gap]` that follow a drive at once.
+/// Levels of `[gap]` that follow a drive immediately.
 const AT_REST: [&str; 2] = ["static", "hysteresis"];
 
 /// The doubts about a scene, a sentence each, which begins with the key that is their cause.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What is done to a pad at any time: its stimuli as the scene has them, and in place of its haptic
-//! voltage what a controller or a recording sets as time goes on, each value held until the next.
+//! What is done to a pad at any time: its stimuli as the scene has them. In place of its haptic
+//! voltage a controller or a recording may set one as time goes on, each value held until the next.
 
 use std::collections::VecDeque;
 
@@ -65,7 +65,7 @@ impl HeldVoltage {
         Ok(())
     }
 
-    /// Forgets what nobody can ask for any more once the pad has been seen at a time.
+    /// Forgets what cannot be asked for any more once the pad has been evaluated at a time.
     pub fn forget(&mut self, before_s: f64) {
         while self.updates.get(1).is_some_and(|[time_s, _]| *time_s <= before_s) {
             self.updates.pop_front();
@@ -138,8 +138,8 @@ impl Electrode {
         }
     }
 
-    /// The eccentricity at which the pad lies on its electrodes still: of quadrants, whose centres are a
-    /// square, within the one that joins the middles of its sides.
+    /// The eccentricity at which the pad lies on its electrodes still. The centres of quadrants form a
+    /// square; then the eccentricity is within the square that joins the middles of its sides.
     fn within_reach(&self, [x_mm, y_mm]: [f64; 2]) -> [f64; 2] {
         if y_mm == 0.0 {
             return [x_mm.clamp(-self.reach_mm, self.reach_mm), y_mm];

@@ -280,7 +280,7 @@ pub(crate) struct Tables {
     pub charge: bool,
 }
 
-/// A pad at rest, for a calibration.
+/// A resting pad, for a calibration.
 pub(crate) fn resting(at_mm: [f64; 2], load_g: f64, haptic_v_rms: f64, device: &Device) -> Pad {
     still(0, 0.0, at_mm, load_g, haptic_v_rms, CAPACITANCE_PF * 1e-12, device)
 }

@@ -25,7 +25,7 @@ use crate::stimulus::Moment;
 use crate::timing::Timing;
 use crate::truth::Truth;
 
-/// A slot that a plant has looked at: the pad that it serves, on which all effects have acted.
+/// A slot that a plant has evaluated: the pad that it selects, on which all effects have acted.
 #[derive(Clone, Debug)]
 pub struct Slot {
     slot: usize,
@@ -58,7 +58,7 @@ pub struct Plant {
     index: usize,
     ratios: Ratios,
     effects: Effects,
-    /// Voltages set in place of the scene's, for each pad; none where nobody has set one.
+    /// Voltages set in place of the scene's, for each pad; empty where none has been set.
     held: Vec<HeldVoltage>,
     /// The latest time that was asked for.
     latest_s: f64,
@@ -183,7 +183,7 @@ impl Plant {
         Plant::of_case((**case).clone(), self.seed, self.index, &self.timing).map(Some)
     }
 
-    /// Whether a sheet divides the currents; without one those of the corners are all that flows.
+    /// Whether a sheet divides the currents; without one only those of the corners flow.
     pub fn has_sheet(&self) -> bool {
         self.case.effects().iter().any(|(effect, _)| SPLITTING.contains(effect))
     }
@@ -366,8 +366,8 @@ impl Plant {
     }
 
     /// What an ideal demodulator over the slot's window finds, as fractions of full scale: one
-    /// amplitude per terminal, then the sensing voltage's, into `out` (channels − 1 of them);
-    /// returns the mean square of the haptic channel.
+    /// amplitude per terminal, then the sensing voltage's, into `out` (channels − 1 of them).
+    /// Returns the mean square of the haptic channel.
     ///
     /// # Panics
     /// If `out` is shorter than that.
@@ -376,7 +376,7 @@ impl Plant {
         self.phasors_of(&at, out)
     }
 
-    /// As [`Plant::phasors`], of a slot that this or another plant of the case has looked at.
+    /// As [`Plant::phasors`], of a slot that this or another plant of the case has evaluated.
     ///
     /// # Panics
     /// As [`Plant::phasors`].
@@ -398,9 +398,9 @@ impl Plant {
         self.samples_of(&at, range, &mut out[start..]);
     }
 
-    /// As [`Plant::samples`], in place of others, of a slot that this or another plant of the case has looked
-    /// at: they follow from the slot alone, so that several plants can make the samples of different slots at
-    /// once.
+    /// As [`Plant::samples`], in place of others, of a slot that this or another plant of the case has
+    /// evaluated. They follow from the slot alone, so that several plants can generate the samples of
+    /// different slots in parallel.
     ///
     /// ```
     /// # use hapticore_scene::{Plant, Scene, Timing};
@@ -431,7 +431,7 @@ impl Plant {
         out.iter_mut().for_each(|sample| *sample = sample.clamp(-1.0, 1.0));
     }
 
-    /// A slot as it is looked at, for whoever makes its samples.
+    /// Evaluates a slot, for a plant that generates its samples.
     pub fn slot(&mut self, slot: usize) -> Slot {
         self.look(slot);
         Slot { slot, pad: self.now.1.clone() }

@@ -23,7 +23,7 @@ pub(crate) enum Purpose {
     Gain,
     Offset,
     PhasorNoise(Origin),
-    /// Of a run that starts so many samples after its slot.
+    /// Of a run that starts this many samples after its slot.
     SampleNoise {
         origin: Origin,
         from: u64,

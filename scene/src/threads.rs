@@ -11,7 +11,7 @@ use std::thread;
 /// Threads at most: to start one takes as long as some hundredths of what they share.
 const MOST: usize = 4;
 
-/// A list of so many items; each thread makes a part of at least `least` of them.
+/// A list of `count` items; each thread makes a part of at least `least` of them.
 pub(crate) fn in_parts<T: Send>(
     count: usize,
     least: usize,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What the plant tells of itself: its state in a slot, and the map that a calibration starts from.
+//! What the plant reports of itself: its state in a slot, and the map that a calibration starts
+//! from.
 
 use num_complex::Complex64;
 
@@ -137,7 +138,7 @@ pub struct MapPoint {
     pub sheet_ohm: f64,
 }
 
-/// What the terminals measure of a pad at rest.
+/// What the terminals measure of a resting pad.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PadMeasurement {
     /// Current into each terminal per volt of sensing, S.

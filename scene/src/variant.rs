@@ -5,7 +5,7 @@
 use crate::error::SceneError;
 use crate::format::{self, Node, Table};
 
-/// The most cases of a scene: each is a copy of all that the scene says.
+/// The most cases of a scene: each is a copy of the whole scene.
 const MOST_CASES: usize = 256;
 
 /// Keys that belong to the scene as a whole, so that a case cannot set them.

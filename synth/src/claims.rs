@@ -76,7 +76,7 @@ fn signal(line: &str, variables: &[Variable]) -> Result<(String, Format, i64)> {
     Ok((name.to_owned(), format, if negative { code - (1 << format.width) } else { code }))
 }
 
-/// The most clocks after which a claim is looked at: a product of two clocks has gone through.
+/// The most clocks over which a claim's induction goes: a product of two clocks has gone through.
 const MOST_CLOCKS: usize = 2;
 
 /// A property that a solver has proved.
@@ -110,7 +110,7 @@ pub fn prove(tools: &Tools, solver: Solver, system: &System) -> Result<Vec<Prove
     Ok(proved)
 }
 
-/// Proves properties by induction over so many clocks.
+/// Proves properties by induction over `clocks` clocks.
 fn by_induction(
     tools: &Tools,
     solver: Solver,

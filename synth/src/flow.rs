@@ -13,7 +13,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
-/// Seeds that run at once.
+/// Seeds that run in parallel.
 const AT_ONCE: usize = 2;
 
 /// A design on its way to a bitstream.

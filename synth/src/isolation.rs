@@ -43,7 +43,7 @@ pub struct State {
 }
 
 impl Seen {
-    /// One of two, nobody knows which; `by` is what decides.
+    /// Either of two, with the choice unknown; `by` is what decides.
     fn either(self, other: Seen, by: Seen) -> Seen {
         match (self, other) {
             (a, b) if a == b && matches!(a, Known(_)) => a,

@@ -17,7 +17,7 @@ use crate::target::Family;
 /// What a row of the report is of.
 #[derive(Debug, Clone)]
 pub struct Loop {
-    /// The profile with all that is added to it.
+    /// The profile with everything that is added to it.
     pub profile: Profile,
     /// What is added to the core: `inverse, walls`.
     pub adds: String,

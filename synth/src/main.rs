@@ -22,38 +22,38 @@ use std::process::ExitCode;
 struct Args {
     #[command(subcommand)]
     what: What,
-    /// Where to work, and to leave bitstreams
+    /// Where to work, and to leave bitstreams.
     #[arg(long, global = true, default_value = "target/synth")]
     work: PathBuf,
-    /// Where reports go
+    /// Where reports go.
     #[arg(long, global = true, default_value = "synth/reports")]
     reports: PathBuf,
 }
 
 #[derive(Subcommand)]
 enum What {
-    /// Synthesise, place with several seeds, pack, report
+    /// Synthesise, place with several seeds, pack, report.
     Board {
-        /// ulx3s or icebreaker
+        /// ulx3s or icebreaker.
         name: String,
-        /// Seeds to place with
+        /// Seeds to place with.
         #[arg(long, default_value_t = 5)]
         seeds: u64,
     },
-    /// Vectors for users of the Verilog, into rtl/verilog/vectors
+    /// Vectors for users of the Verilog, into rtl/verilog/vectors.
     Vectors,
-    /// Force loops: cores with controller and walls
+    /// Force loops: cores with controller and walls.
     Loops {
-        /// Seeds to place with
+        /// Seeds to place with.
         #[arg(long, default_value_t = 5)]
         seeds: u64,
-        /// Only loops whose names begin so, such as `small, inverse`; the others stay as reported
+        /// Only loops whose names begin so, such as `small, inverse`; the others stay as reported.
         #[arg(long, default_value = "")]
         only: String,
     },
-    /// Every bundled profile's core on every family
+    /// Every bundled profile's core on every family.
     Cores {
-        /// Seeds to place with
+        /// Seeds to place with.
         #[arg(long, default_value_t = 3)]
         seeds: u64,
     },

@@ -34,7 +34,7 @@ fn main() {
 }
 
 fn row(slot_us: u64, division: &Division) -> String {
-    // Linear about what gains lead to with which the loop comes to rest.
+    // Linear about the state that gains lead to with which the loop settles.
     let integral_v = INTEGRAL_V / (1e-6 * slot_us as f64 * division.pads as f64);
     let gains = [PROPORTIONAL_V, integral_v];
     let margin = stability(division, gains, 0.6).gain_margin.expect("a loop with a limit");

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The reference's own error on every bundled scene, as a table in Markdown.
 //!
-//! `cargo run --release -p hapticore-tests --example reference_error [SLOTS]`: about so many slots
-//! of each scene, evenly spread over its cases (48).
+//! `cargo run --release -p hapticore-tests --example reference_error [SLOTS]`: about SLOTS slots of
+//! each scene (default 48), evenly spread over its cases.
 
 use hapticore_scene::gallery;
 use hapticore_tests::reference_error::{HEAD, Measured, measure, table};

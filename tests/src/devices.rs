@@ -31,14 +31,14 @@ pub struct Device {
     pub slope_percent: [f64; 2],
 }
 
-/// Places of a pad: of columns × rows, 15 mm off the edges and evenly between, every so many.
+/// Places of a pad: of columns × rows, 15 mm off the edges and evenly between, one in `every`.
 #[derive(Debug, Clone, Copy)]
 pub struct Raster {
     /// Positions along x.
     pub columns: usize,
     /// Positions along y.
     pub rows: usize,
-    /// Every so many of them, row by row.
+    /// One in this many of them, row by row.
     pub every: usize,
 }
 
@@ -74,8 +74,8 @@ pub struct Found {
 
 impl Device {
     /// Device `number`: 100 to 1500 mm long, 1 to 2.5 times as long as high, with 4, 5, 6 and 8
-    /// terminals in turn, of which four are at the corners, each 0 to 2 kΩ ± 5 %, and a film of 20
-    /// to 500 Ω/sq; every other one slopes by up to 20 %.
+    /// terminals in turn. Four terminals are at the corners; every terminal has 0 to 2 kΩ ± 5 %.
+    /// The film has 20 to 500 Ω/sq; every other film slopes by up to 20 %.
     pub fn draw(number: usize) -> Device {
         let mut rng = Rng::with_seed(0xDE71CE + number as u64);
         let rounded = |x: f64| (10.0 * x).round() / 10.0;

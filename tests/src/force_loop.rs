@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a force loop is given, clock by clock, by a plant that its own drive words move: in a trace
-//! of it, Verilog that gives the model's drive words has moved the plant as the model did.
+//! The inputs of a force loop, clock by clock, from a plant that its own drive words move. In a
+//! trace of it, Verilog that outputs the model's drive words has moved the plant as the model did.
 
 use std::collections::VecDeque;
 
@@ -39,7 +39,7 @@ pub struct Closed {
 }
 
 impl Closed {
-    /// So many slots of a bundled scene's case by a profile, with keys and values as in `--set`.
+    /// `slots` slots of a bundled scene's case by a profile, with keys and values as in `--set`.
     ///
     /// # Panics
     /// Where there is no such scene or case, or it has no controller.

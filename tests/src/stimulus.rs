@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a core is given, clock by clock: the calibration through its port, then sets of ADC codes.
-//! And what a block alone is given, one operation after the other.
+//! The inputs of a core, clock by clock: the calibration through its port, then sets of ADC codes.
+//! And the inputs of a block alone, one operation after the other.
 
 use std::collections::VecDeque;
 use std::f64::consts::TAU;
@@ -18,7 +18,7 @@ use hapticore_run::engine::Signals;
 use hapticore_run::inputs;
 use hapticore_run::maker::Maker;
 
-/// What the core is given of the plant: sets of codes, one for each strobe.
+/// What the core receives of the plant: sets of codes, one for each strobe.
 pub type Samples = Box<dyn Iterator<Item = Vec<i64>>>;
 
 /// A stimulus for [`Trace::record`](crate::lockstep::Trace::record).
@@ -31,7 +31,7 @@ pub struct Stimulus {
     codes: Vec<i64>,
     clock: u64,
     clocks_per_sample: u64,
-    /// Other constants with each slot of so many clocks.
+    /// Other constants with each slot of this many clocks.
     recalibrate: Option<(Rng, u64)>,
     /// Writes into the table while it is in use.
     disturb: Option<(Rng, Memory)>,
@@ -98,7 +98,7 @@ fn anything(rng: &mut Rng, format: Format) -> i64 {
 }
 
 /// A corner, any code, one of two bits, or of ones, or one of any length with any number of zeros
-/// at its end: products of such codes are of every size, and halves, or what is next to them, come
+/// at its end. Products of such codes are of every size, and halves, or what is next to them, come
 /// often where they are rounded.
 pub fn shaped(rng: &mut Rng, format: Format) -> i64 {
     match rng.u8(..8) {
@@ -118,12 +118,12 @@ pub fn shaped(rng: &mut Rng, format: Format) -> i64 {
     }
 }
 
-/// Operations of a block alone: operands that hold while it works, a clock of `start`, and rest
-/// until some clocks after `done`. Where words stream in (`valid`, `index`), all of them one after
-/// the other; where there is a table of so many words, it is filled, and some of it is written anew
-/// before each operation. Operands are [`shaped`], or one of them is such that its product with
-/// another ends in a one, zeros and a one, next to a half. Where there is no `done`, the block is
-/// given so many clocks.
+/// Operations of a block alone: operands that hold while it works, one cycle of `start`, and idle
+/// cycles until some clocks after `done`. Where words stream in (`valid`, `index`), all of them
+/// follow one after the other. A table of `words` words is filled first, and some of it is written
+/// anew before each operation. Operands are [`shaped`], or one of them is such that its product
+/// with another ends in a one, zeros and a one, next to a half. A block without `done` has `clocks`
+/// clocks.
 ///
 /// # Panics
 /// Where the block has neither `start` nor `valid`.
@@ -284,9 +284,9 @@ pub fn scene(profile: &Profile, name: &str, slots: usize) -> Stimulus {
 }
 
 /// Tones in step with the carrier, of any phase, or all of one, and of no, small, full or clipped
-/// amplitude, other ones in each slot, as is the calibration; its tables as of [`random`]. Where
-/// random codes average out, these fill every word. In half of the slots they begin late: of a tone
-/// that lasts, a window's cosine adds nothing to the sum, whatever its sign.
+/// amplitude. Each slot has other tones and another calibration, with tables as of [`random`].
+/// Where random codes average out, these fill every word. In half of the slots they begin late: of
+/// a tone that lasts, a window's cosine adds nothing to the sum, whatever its sign.
 pub fn tones(profile: &Profile, seed: u64, slots: u64) -> Stimulus {
     let (mut rng, channels, adc) = (Rng::with_seed(!seed), profile.channels(), profile.formats.adc);
     let (samples, turns_per_sample) = (profile.slot.samples(), profile.turns_per_sample());

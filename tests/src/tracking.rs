@@ -88,7 +88,7 @@ pub struct Followed {
     pub force_n: f64,
 }
 
-/// The slots of a law after a target, the pad under so many grams.
+/// The slots of a law that follows a target, the pad under `load_g` grams.
 ///
 /// # Panics
 /// Where the scene has no such case.
@@ -96,7 +96,7 @@ pub fn follow(law: &Law, target: &str, load_g: f64) -> Vec<Followed> {
     follow_in(&OWN, law, target, load_g)
 }
 
-/// The first pad's slots of a law after a target, all pads under so many grams.
+/// The first pad's slots of a law that follows a target, all pads under `load_g` grams.
 ///
 /// # Panics
 /// Where the scene has no such case.
@@ -168,7 +168,7 @@ pub fn follow_integral(division: &Division, gains: [f64; 2], target: &str) -> Ve
     slots(&case(division, &scene, &format!("{target}, closed loop")))
 }
 
-/// `fig9` in other slots; further pads rest.
+/// `fig9` in other slots; further pads have a target of zero.
 fn scene(division: &Division, control: &[(&str, &str)], load_g: f64) -> Scene {
     let text = |(key, value): &(&str, &str)| (format!("control.{key}"), quoted(value));
     let mut set: Vec<_> = control.iter().map(text).collect();

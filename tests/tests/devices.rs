@@ -2,7 +2,7 @@
 //! Positions on anyone's device: random sheets with random terminals, each calibrated as a user
 //! would, read by the integers of the core (`fixed`).
 //!
-//! `DEVICES=300` takes so many devices, at all places, instead of a few at some, `PROFILE=small`
+//! `DEVICES=300` takes 300 devices, at all places, instead of a few at some. `PROFILE=small` takes
 //! another profile, whose figures are printed and not judged: `DEVICES=300 cargo test --release -p
 //! hapticore-tests --test devices -- --nocapture random`.
 

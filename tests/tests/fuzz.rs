@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Every fuzz target on its committed corpus, its seeds and mutations of both: what a fuzzer has
-//! found once stays found, and what it would find at once is found here (docs/fuzzing.md).
+//! found once stays found, and what it would find immediately is found here (docs/fuzzing.md).
 
 #[path = "fuzz/values.rs"]
 mod values;
@@ -21,8 +21,8 @@ fn corpus(target: &str) -> Vec<Vec<u8>> {
     paths.iter().map(|path| fs::read(path).expect("a file")).collect()
 }
 
-/// Runs a target on what there is of it and on so many mutations of what is accepted: those of what is
-/// refused at once try little.
+/// Runs a target on its corpus and seeds, and on `mutations` mutations of what is accepted: those of
+/// what is refused immediately try little.
 fn hold(target: &'static str, mutations: usize) {
     let mut all = corpus(target);
     all.extend(seeds::of(target));

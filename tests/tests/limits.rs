@@ -32,7 +32,7 @@ proportional to their size. Nor is a sheet with all channels mirrored seen: it i
 | --- | --- | --- | --- | --- | --- |
 ";
 
-/// What disturbs a slot of channels with so many codes at full scale.
+/// Disturbs the codes of a slot: its number, codes, channels and full scale.
 type Disturb = Box<dyn Fn(usize, &mut [i32], usize, i32)>;
 
 /// A disturbance of the codes of a window: its name, and what it does.

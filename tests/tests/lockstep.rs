@@ -244,7 +244,7 @@ fn icarus_runs_a_force_table_as_the_model_does() {
     }
 }
 
-/// A core of so many terminals, the signs of which differ along both axes.
+/// A core of `terminals` terminals, the signs of which differ along both axes.
 fn with_terminals(terminals: usize) -> Bench {
     let small = Profile::bundled("small").expect("bundled");
     let sign = |period: usize| move |n: usize| if (n / period).is_multiple_of(2) { 1 } else { -1 };
@@ -414,7 +414,7 @@ fn verilator_drives_a_converter_as_the_model_does() {
     }
 }
 
-/// What the drive output is given by the port of the loop that has its name.
+/// What the drive output receives from the port of the loop that has its name.
 fn drive_input(of_loop: &Trace, name: &str) -> Vec<i64> {
     match name {
         "enable" => of_port(of_loop, "clear").into_iter().map(|clear| 1 - clear).collect(),

@@ -35,7 +35,7 @@ const STATED: f64 = 0.95;
 /// The share of frames without a fault that may carry a flag of one.
 const FALSE: f64 = 1e-3;
 
-/// Every so many devices has no fault.
+/// One device in this many has no fault.
 const CLEAN_EVERY: u64 = 3;
 
 /// Flags that the checks of a recording set.

@@ -116,8 +116,8 @@ fn tones(bench: &Bench, pad: &Pad) -> Measurement {
     bench.fixed().phasors(0, &bench.phasors(pad), square).measurement(&bench.profile)
 }
 
-/// What rounding of the currents' words leaves of a ratio, at most: half a step of I and of Q of every
-/// terminal, and one of the amplitude's square root and of the ratio's own word.
+/// The largest error that rounding of the currents' words leaves in a ratio. It is half a step of I
+/// and of Q of every terminal, and one of the amplitude's square root and of the ratio's own word.
 fn ratio_step(bench: &Bench, pad: &Pad) -> f64 {
     let formats = &bench.profile.formats;
     let total: f64 = pad.currents.iter().sum();

@@ -69,7 +69,7 @@ fn an_edge_overshoots_little_and_rises_within_ten_milliseconds() {
     });
 }
 
-/// Four pads in the same frame of 1 ms, and one alone, with slots of 250 µs: each law that meets the
+/// Four pads in the same frame of 1 ms, and one alone, with slots of 250 µs. Each law that meets the
 /// bars of an edge still does, although an estimate is not finished before the next window begins.
 #[test]
 #[cfg_attr(not(optimised), ignore = "whole scenes: run with --release")]
@@ -81,7 +81,7 @@ fn an_edge_in_slots_of_250_us_overshoots_as_little() {
                 let (over_n, rise_s) = (overshoot_n(&slots), rise_s(&slots));
                 let name = format!("{}, {}, {}", division.name, LAWS[law].name, TARGETS[target]);
                 println!("{name}: {:.1} mN, {:.2} ms", 1e3 * over_n, 1e3 * rise_s);
-                // Slots lie so many microseconds apart: what is said is to half of one.
+                // Slots are 250 µs apart: the rise time is exact to half of one.
                 assert!(over_n <= most_n && rise_s <= 0.0101, "{name}: {over_n} N, {rise_s} s");
             }
         }

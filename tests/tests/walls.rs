@@ -77,8 +77,8 @@ fn a_stiff_wall_has_no_bursts() {
     }
 }
 
-/// In by 4 mm beyond the surface, a rest, out again, with 300 N/m: sticking at most 0.008 N, and
-/// the wall never vanishes.
+/// In by 4 mm beyond the surface, a pause, out again, with 300 N/m: the sticking force is at most
+/// 0.008 N, and the wall is never lost.
 #[test]
 fn the_trajectory_of_the_paper_neither_sticks_nor_loses_the_wall() {
     let drive = Drive::calibrated(Kind::A.pad());

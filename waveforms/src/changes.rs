@@ -7,7 +7,7 @@ use crate::Error;
 use crate::bits::masked;
 use crate::wave::Wave;
 
-/// A file that is told the time only when something changes.
+/// A file that receives the time only when something changes.
 pub(crate) struct Timed<W> {
     wave: W,
     now: u64,

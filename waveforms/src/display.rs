@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How GTKWave is told to show a signal: flags, bit ranges, fixed points.
+//! How GTKWave shows a signal: flags, bit ranges, fixed points.
 
 use hapticore_hdl::format::Format;
 

@@ -14,7 +14,7 @@
 //! | [`text`] | waveforms as text, for tests |
 //! | [`pattern`] | how views and tests name signals |
 //!
-//! Tracing looks at a simulation and never alters it; nothing here knows what a signal means. A
+//! Tracing observes a simulation and never alters it; nothing here knows what a signal means. A
 //! file appears under its name only when it is whole.
 
 mod bits;

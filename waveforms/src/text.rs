@@ -165,7 +165,7 @@ pub fn number(format: Format, code: i64) -> String {
     text.trim_end_matches('0').trim_end_matches('.').to_string()
 }
 
-/// `code · 2^-frac` to so many decimals, in integers: an `f64` has not the bits of the widest
+/// `code · 2^-frac` to `decimals` decimals, in integers: an `f64` has not the bits of the widest
 /// codes.
 fn fixed_point(code: i64, frac: u32, decimals: usize) -> String {
     let one = 10u128.pow(decimals as u32);

@@ -114,8 +114,7 @@ impl<W: Wave> Tracer<W> {
         outcome
     }
 
-    /// Passes over clocks that the simulation did without being looked at. The trace holds its
-    /// values there.
+    /// Passes over clocks that the simulation did untraced. The trace holds its values there.
     pub fn skip(&mut self, clocks: u64) {
         self.clock += clocks;
     }

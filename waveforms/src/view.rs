@@ -20,7 +20,7 @@
 //! ```
 //!
 //! `show` is a [pattern](crate::pattern). A signal that a group before has shown is not shown again
-//! by a pattern, only by its full path, so that a last group can hold the rest.
+//! by a pattern, only by its full path, so that a last group can hold all others.
 
 use std::ops::Range;
 use std::path::Path;

@@ -75,8 +75,8 @@ impl AtomicFile {
         self.temporary.persist(&self.path).map(drop).map_err(|error| error.error)
     }
 
-    /// Gives the finished file its name unless there is a file of that name; whether it has it. Of
-    /// several writers at once one succeeds.
+    /// Gives the finished file its name unless a file of that name exists; returns whether it did.
+    /// Of several concurrent writers one succeeds.
     ///
     /// # Errors
     /// It cannot be renamed for another reason.

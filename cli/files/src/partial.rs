@@ -38,8 +38,7 @@ pub(crate) fn lock_file(file: &File) {
 /// Removes what runs that are no more have left unfinished in a folder. What cannot be removed
 /// stays.
 ///
-/// Whoever writes into the folder does so by itself; this is for one that may find nothing left to
-/// write.
+/// Writers into the folder do so implicitly; call this where there may be nothing left to write.
 pub fn clear(folder: &Path) {
     let entries = fs::read_dir(folder).into_iter().flatten().flatten();
     let partial = entries.filter(|entry| entry.file_name().to_string_lossy().starts_with(PREFIX));

@@ -4,8 +4,8 @@
 //!
 //! `cargo run --release -p hapticore-run --example force_prior > cli/run/src/lab/force_prior.csv`
 //!
-//! Each device's table is fitted to much more than a laboratory reads: settled at nine loads and 46
-//! voltages to 460 V up and down, and steps at six loads and five voltages, each millisecond of the first 20,
+//! Each device's table is fitted to much more data than a laboratory records. Settled readings: nine loads,
+//! 46 voltages up to 460 V and down again. Steps: six loads, five voltages, each millisecond of the first 20,
 //! then every seventh. Where a device has no readings its table is drawn to a smooth one.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -79,7 +79,7 @@ fn numbers(bench: &Bench) -> Result<Numbers> {
     Ok(knowledge.numbers)
 }
 
-/// Settled readings at so many voltages to the highest, up and down.
+/// Settled readings at `voltages` voltages up to `most_v`, and down again.
 fn settled(bench: &Bench, loads_g: &[f64], most_v: f64, voltages: usize) -> Result<Vec<Reading>> {
     let up: Vec<f64> = (1..=voltages).map(|n| most_v * n as f64 / voltages as f64).collect();
     let volts: Vec<f64> = up.iter().chain(up.iter().rev()).copied().collect();

@@ -65,7 +65,7 @@ pub struct Case<'a> {
     tuned: OnceLock<Option<(Gains, Tuning)>>,
 }
 
-/// What is made when it is first looked at. A device is calibrated so while slots are made on other threads.
+/// A value that is computed on first access. So a device is calibrated while other threads generate slots.
 pub type OnDemand<T> = LazyLock<T, Box<dyn FnOnce() -> T + Send>>;
 
 /// What cases of one device share, made when it is first asked for.

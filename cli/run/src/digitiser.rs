@@ -55,7 +55,7 @@ impl Digitiser {
             for lane in 0..LANES {
                 raised[lane] = self.raise(group[lane], &mut peaks[lane]);
             }
-            // In a loop of its own: the one above is of instructions for several lanes at once.
+            // In a loop of its own: the one above is of instructions that act on several lanes.
             for lane in 0..LANES {
                 codes[lane] = low_bits(raised[lane]);
             }
@@ -80,7 +80,7 @@ fn low_bits(raised: f64) -> i32 {
 }
 
 /// The larger of two numbers; the second, where the first is none. Without the cases of `f64::max`
-/// this is an instruction, for two lanes at once.
+/// this is one instruction for two lanes.
 #[inline(always)]
 fn larger(a: f64, b: f64) -> f64 {
     if a > b { a } else { b }
@@ -96,7 +96,7 @@ fn lesser(a: f64, b: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// Ties, rails and what lies beyond, in whole groups and in the rest.
+    /// Ties, rails and what lies beyond, in whole groups and in the remainder.
     #[test]
     fn codes_of_many_are_those_of_each() {
         for bits in [8, 16, 18, 24, 31] {

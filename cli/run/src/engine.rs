@@ -34,7 +34,7 @@ impl Fidelity {
     }
 }
 
-/// What the core is given of a slot.
+/// What the core receives of a slot.
 #[derive(Debug, Clone)]
 pub struct Slot {
     /// Pad number, from 0.

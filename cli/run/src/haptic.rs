@@ -21,7 +21,7 @@ const LONGEST_MEAN: u32 = 6;
 /// How exactly a frequency is known.
 const TOLERANCE: f64 = 0.01;
 
-/// Frequencies that are looked at on either side, up to the tolerance.
+/// Frequencies that are evaluated on either side, up to the tolerance.
 const POINTS: i32 = 32;
 
 /// Slots of all pads that tones are measured from, and of each pad at least.
@@ -45,7 +45,7 @@ const SLOWEST: f64 = 0.7;
 /// Frequencies that are tried at most.
 const MOST_STEPS: usize = 30_000;
 
-/// Tones that are told apart in a voltage.
+/// Tones that are distinguished in a voltage.
 const TONES: usize = 2;
 
 /// Alternating voltages below this part of full scale are noise.
@@ -74,8 +74,8 @@ pub fn warning(profile: &Profile, haptic_hz: f64, sample_rate_hz: f64) -> Option
     })
 }
 
-/// The largest error of the RMS over all phases, and frequencies so near, of the mean over so many
-/// of a pad's windows.
+/// The largest error of the RMS over all phases, and over frequencies within the tolerance, for the
+/// mean over `windows` of a pad's windows.
 fn error(profile: &Profile, windows: u64, haptic_hz: f64, sample_rate_hz: f64) -> f64 {
     let window_s = profile.slot.integrate as f64 / sample_rate_hz;
     let frame_s = (profile.pads * profile.slot.samples()) as f64 / sample_rate_hz;
@@ -83,19 +83,19 @@ fn error(profile: &Profile, windows: u64, haptic_hz: f64, sample_rate_hz: f64) -
         transform(profile.carrier.window, 2.0 * hz * window_s) * comb(windows, 2.0 * hz * frame_s)
             / 2.0
     };
-    // Over so many windows, the mean's error has several maxima within the tolerance.
+    // Over many windows, the mean's error has several maxima within the tolerance.
     let parts =
         (-POINTS..=POINTS).map(|point| 1.0 + TOLERANCE * f64::from(point) / f64::from(POINTS));
     parts.map(|part| at(part * haptic_hz)).fold(0.0, f64::max)
 }
 
-/// The magnitude of the mean of so many unit phasors, each so many turns from the one before.
+/// The magnitude of the mean of `count` unit phasors, each `turns` turns from the one before.
 fn comb(count: u64, turns: f64) -> f64 {
     let (count, sine) = (count as f64, (PI * turns).sin());
     if sine.abs() < 1e-9 { 1.0 } else { ((PI * count * turns).sin() / (count * sine)).abs() }
 }
 
-/// The magnitude of a window's transform at so many periods of the window.
+/// The magnitude of a window's transform at `x` periods per window.
 fn transform(window: Window, x: f64) -> f64 {
     let sinc = if x == 0.0 { 1.0 } else { (PI * x).sin() / (PI * x) };
     match window {
@@ -116,8 +116,8 @@ fn whole_period(profile: &Profile, haptic_hz: f64, sample_rate_hz: f64) -> u64 {
 
 /// The tones of the haptic voltage of each pad of a recording, from its first slots.
 ///
-/// A pad's voltage is known in its own slots only, so a sine is fitted to all of them at once, at
-/// each frequency, by least squares: `y(t) = a·cos ωt + b·sin ωt`.
+/// A pad's voltage is known in its own slots only, so at each frequency one sine is fitted to all
+/// of them together, by least squares: `y(t) = a·cos ωt + b·sin ωt`.
 #[derive(Debug)]
 pub struct Meter {
     rate_hz: f64,
@@ -248,7 +248,7 @@ impl Listened {
     }
 }
 
-/// The power that a fit has at so many frequencies, without the correlation of cosine and sine.
+/// The power that a fit has at `steps` frequencies, without the correlation of cosine and sine.
 fn spectrum(points: &[[f64; 2]], lowest_hz: f64, step_hz: f64, steps: usize) -> Vec<f64> {
     let turn = |hz: f64, t: f64| {
         let phase = 2.0 * PI * hz * t;

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Ctrl-C, SIGTERM, SIGHUP: a run is told to stop, so that it can take away what it has begun to
-//! write.
+//! Ctrl-C, SIGTERM and SIGHUP ask a run to stop, so that it can remove what it has begun to write.
 //!
-//! A run that does not ask, since it waits for something that may never come (a named pipe that
-//! nobody writes into), is ended after a while. What it leaves is cleared as that of a killed one.
+//! A run that does not check, since it waits for something that may never come (a named pipe
+//! without a writer), is ended after a while. What it leaves is cleared as that of a killed one.
 
 use std::process;
 use std::sync::atomic::{AtomicBool, Ordering};

@@ -22,7 +22,7 @@
 //! | [`silent`] | what no check of a recording can see |
 //! | [`wiring`] | whether a recording's channels are the device's: sign, order, gain |
 //! | [`record`], [`provenance`] | what a run leaves, and where it comes from |
-//! | [`interrupt`], [`number`] | a run that is told to stop; numbers in messages |
+//! | [`interrupt`], [`number`] | stopping a run; numbers in messages |
 
 pub mod calibrate;
 pub mod capture;

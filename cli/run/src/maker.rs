@@ -27,7 +27,7 @@ impl Maker {
         Maker { plant, digitiser, sampled, blanking, samples, whole, fractions: Vec::new() }
     }
 
-    /// What the core is given of a slot, and the largest sample.
+    /// What the core receives of a slot, and the largest sample.
     pub fn signals(&mut self, slot: usize) -> (Signals, f64) {
         let slot = self.plant.slot(slot);
         self.generate(&slot)

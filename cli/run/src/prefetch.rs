@@ -223,7 +223,7 @@ mod tests {
         });
     }
 
-    /// Takes so many slots, then no more.
+    /// Takes this many slots, then no more.
     struct Full(AtomicUsize);
 
     impl Recorder for Full {

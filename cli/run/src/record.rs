@@ -96,7 +96,7 @@ impl<'a> IntoIterator for &'a Rows {
 pub struct Driven {
     /// The force that the pad should have, N.
     pub target_n: f64,
-    /// The haptic voltage that the pad is given from then on, V rms.
+    /// The haptic voltage that the pad has from then on, V rms.
     pub drive_v_rms: f64,
     /// The drive is at zero or at its rail, and should be beyond.
     pub limited: bool,
@@ -242,21 +242,21 @@ pub struct Provenance {
     pub seed: Option<u64>,
     /// What `--set` set, in its order.
     pub set: Vec<(String, String)>,
-    /// Each case as a scene of its own in TOML, with all that cases and `--set` set.
+    /// Each case as a scene of its own in TOML, with everything that cases and `--set` set.
     pub resolved_scene: BTreeMap<String, String>,
     /// The calibration file of a replay; none where the nominal device's was taken, or a scene was
     /// run.
     pub calibration: Option<PathBuf>,
 }
 
-/// How stable a force loop is about a force at rest.
+/// How stable a force loop is about a steady force.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 pub struct Stability {
     /// The force, N.
     pub force_n: f64,
     /// From a pad's slot to its next, s.
     pub frame_s: f64,
-    /// From the middle of a window to the middle of the time for which its drive is given, s.
+    /// From the middle of a window to the middle of the time for which its drive is held, s.
     pub delay_s: f64,
     /// Where the open loop has the magnitude 1, Hz; none where it never does.
     pub crossover_hz: Option<f64>,

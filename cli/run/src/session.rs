@@ -39,9 +39,9 @@ pub struct Session {
 }
 
 impl Session {
-    /// A core of the profile for a device, of whose calibration it is given these words, just
-    /// before its first slot. `case` is the number of the
-    /// case in rows. With a tuning the profile's controller drives the pads.
+    /// A core of the profile for a device, with the words of its calibration, just before its first
+    /// slot. `case` is the number of the case in rows. With a tuning the profile's controller
+    /// drives the pads.
     ///
     /// # Errors
     /// A profile whose controller cannot be.

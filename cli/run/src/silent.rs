@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What no check of a recording can see, by the nature of a lock-in (docs/limits.md).
 //!
-//! A tone within the window's main lobe about the carrier is current to it, and so is a harmonic of
-//! the carrier that aliases onto the carrier: k·p ≡ ±p (mod N) for p periods in N samples.
+//! The lock-in takes a tone within the window's main lobe about the carrier for current. The same
+//! holds for a harmonic of the carrier that aliases onto the carrier: k·p ≡ ±p (mod N) for p
+//! periods in N samples.
 
 use hapticore_contract::profile::{Profile, Window};
 
-/// The highest harmonic that is looked at: those beyond have little left.
+/// The highest harmonic that is checked: those beyond have little amplitude.
 const HIGHEST: u64 = 12;
 
 /// Harmonics of the carrier, from the second on, that the core of a profile takes for the carrier.

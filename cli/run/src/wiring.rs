@@ -28,7 +28,8 @@ const SLOTS: usize = 64;
 /// Slots after which frames are written, whether they could be judged or not.
 const PATIENCE: usize = 4096;
 
-/// Shares are off where their mean distance is beyond so many errors of the calibration, and this.
+/// Shares are off where their mean distance exceeds this many errors of the calibration plus
+/// `LEAST_OFF`.
 const ERRORS: f64 = 2.0;
 
 /// See [`ERRORS`].
@@ -82,7 +83,7 @@ pub struct Wiring {
     reversed: Vec<usize>,
     judged: usize,
     seen: usize,
-    /// Shares of some slots, one of so many.
+    /// Shares of one slot in `every`.
     slots: Vec<Vec<f64>>,
     every: usize,
 }
@@ -122,7 +123,7 @@ impl Wiring {
         reversed.into_iter().map(|k| format!("{}_reversed", self.channel(k))).collect()
     }
 
-    /// Whether so many slots have been seen that frames may be written.
+    /// Whether enough slots have been judged or passed for frames to be written.
     pub fn is_decided(&self) -> bool {
         self.every > 1 || self.slots.len() >= SLOTS / 2 || self.seen >= PATIENCE
     }

@@ -56,7 +56,7 @@ impl Calibrated {
         loads.iter().flat_map(|load| self.bench.settled(*load, &volts).unwrap()).collect()
     }
 
-    /// Steps of the voltage: the first 20 ms of each, and the rest to 4 s.
+    /// Steps of the voltage: the first 20 ms of each, and what follows to 4 s.
     fn steps(&self, loads_g: &[f64], volts: &[f64]) -> [Vec<Reading>; 2] {
         let mut sets = [vec![], vec![]];
         for load_g in loads_g {
@@ -229,7 +229,8 @@ fn a_laboratory() {
     assert!(refused.starts_with("loads.csv: time_s: expected 60 readings"), "{refused}");
 }
 
-/// Rises and falls in its loads, with rows some milliseconds apart, tell of others, faster and not as high.
+/// Rises and falls in a laboratory's loads, with rows some milliseconds apart, improve the prediction of
+/// others, faster and not as high.
 #[test]
 fn a_laboratory_records_rises_and_falls() {
     let bench = Bench::of(&scene(None)).unwrap().expect("a gap and friction");

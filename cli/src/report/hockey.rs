@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Several pads at once: their trajectories over the sheet, forces and errors over time.
+//! Several pads together: their trajectories over the sheet, forces and errors over time.
 
 use super::axis::Axis;
 use super::figure::Figure;

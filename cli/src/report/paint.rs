@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Colours that follow the reader's light or dark mode.
 //!
-//! `plotters` writes colours into every element. So it is given sentinels, which carry an index
-//! instead of a colour; afterwards each becomes a class, and `report.css` says what the index looks
-//! like in either mode.
+//! `plotters` writes colours into every element. So the report passes sentinels, which carry an
+//! index instead of a colour. Afterwards each becomes a class, and `report.css` defines the index's
+//! colour in either mode.
 
 use plotters::style::RGBColor;
 

@@ -38,7 +38,7 @@ pub fn figures(record: &Record) -> Vec<Figure> {
     }
 }
 
-/// Rows of one line: equal case, pad and settings but for the one that it is drawn over.
+/// Rows of one line: equal case, pad and settings, except the setting on its horizontal axis.
 type Lines<'a> = BTreeMap<(usize, usize, Vec<i64>), Vec<(&'a Row, Truth)>>;
 
 fn lines<'a>(record: &'a Record, over: &str) -> Lines<'a> {

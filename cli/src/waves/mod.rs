@@ -2,8 +2,8 @@
 //! Waveforms of a case: the core stepped clock by clock through a window, beside the plant's truth.
 //!
 //! The truth of a slot stands from the end of the slot to that of the next, beside the results of
-//! the slot; before the first slot has ended there is none. The window is a run of its own: the
-//! core that makes the frames is never altered by being looked at.
+//! the slot; before the first slot has ended there is none. The window is a run of its own: tracing
+//! never alters the core that makes the frames.
 //!
 //! | module | traces |
 //! | --- | --- |

@@ -55,7 +55,7 @@ pub enum Values {
 pub enum Points {
     /// Every combination of the axes' values, the last axis fastest.
     Grid(Vec<Axis>),
-    /// So many draws, each of all axes.
+    /// This many draws, each of all axes.
     Random {
         /// How many.
         count: u64,

@@ -15,7 +15,7 @@ use hapticore_run::interrupt;
 /// How often a claim of another runner is tried again.
 const AGAIN: Duration = Duration::from_millis(100);
 
-/// A chunk that nobody else is at, until this is dropped.
+/// Exclusive access to a chunk, until this is dropped.
 #[derive(Debug)]
 pub struct Claim {
     path: PathBuf,
@@ -53,7 +53,8 @@ impl Claim {
 }
 
 impl Drop for Claim {
-    /// Whoever opened the file before it goes finds, once it has the lock, what was stored under it.
+    /// A runner that opened the file before its removal finds, once it has the lock, what was stored
+    /// under it.
     fn drop(&mut self) {
         let _ = fs::remove_file(&self.path);
     }

@@ -41,8 +41,7 @@ impl Short {
 #[derive(Debug)]
 pub struct Asked {
     shorts: HashSet<Short>,
-    /// Whether one begins with these two bytes: most of a large store's points are told apart by them, without a
-    /// hash.
+    /// Whether one begins with these two bytes: they distinguish most of a large store's points, without a hash.
     begins: Vec<bool>,
 }
 
@@ -106,7 +105,7 @@ mod tests {
         Line { key: key.into(), seed: 1, profile, scene, results: None, error }.text() + "\n"
     }
 
-    /// Whoever asks for the one part's point need not read the other, whatever stands in it.
+    /// A search for the one part's point need not read the other part, whatever its content.
     #[test]
     fn a_part_is_read_where_it_holds_what_is_asked_or_has_changed() {
         let folder = tempfile::tempdir().expect("a folder");

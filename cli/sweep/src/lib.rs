@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Many runs of a plan: what accuracy costs in time, on the core's side and on the plant's.
 //!
-//! Each run is named by the hash of all that it is made of, so that it may be run anywhere, any number
-//! of times: what is in the store is done. Threads of one program, or any engine that starts programs,
-//! fill a store; what is collected from it has the same bytes.
+//! Each run is named by the hash of everything that it is made of, so that it may be run anywhere, any
+//! number of times: what is in the store is done. Threads of one program, or any engine that starts
+//! programs, fill a store; what is collected from it has the same bytes.
 //!
 //! | module | does |
 //! | --- | --- |

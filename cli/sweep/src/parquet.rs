@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `results.parquet`: the rows of `results.csv`, with types. Names, fronts and errors are texts, and seeds whole numbers,
-//! which a double does not always hold; of the other columns one whose cells are all finite numbers, or empty, has doubles,
-//! and any other texts. An empty cell is null.
+//! `results.parquet`: the rows of `results.csv`, with types. Names, fronts and errors are texts.
+//! Seeds are whole numbers, which a double cannot always represent. Any other column has doubles
+//! where all its cells are finite numbers or empty, else texts. An empty cell is null.
 
 use std::str::FromStr;
 use std::sync::Arc;

@@ -67,7 +67,7 @@ const TRIED: usize = 64;
 /// The most points of a plan.
 const MOST_POINTS: u128 = 10_000_000;
 
-/// A plan with all that it needs: it can be run where its files are not.
+/// A plan with everything that it needs: it can be run where its files are not.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Plan {
@@ -217,7 +217,7 @@ impl Plan {
         Scene::parse(&self.scene.text, &self.scene.file, &settings::overrides(set))
     }
 
-    /// The name of the plan: the hash of all that is in it.
+    /// The name of the plan: the hash of everything in it.
     pub fn name(&self) -> String {
         canonical::name(self)
     }
@@ -249,7 +249,7 @@ impl Plan {
     }
 }
 
-/// What tells one version of the core from another, as far as results go: all that is printed of it.
+/// What tells one version of the core from another, as far as results go: a hash of its Verilog.
 fn core_hash(profile: &Profile) -> Result<String> {
     let design = Design::print(&netlist(profile)?, "");
     Ok(blake3::hash(design.text().as_bytes()).to_hex().to_string())

@@ -51,7 +51,7 @@ impl Plan {
     /// A point: seeds vary slowest, then the scene's keys, then the profile's.
     ///
     /// # Panics
-    /// Where there are not so many.
+    /// If `index` is beyond the last point.
     pub fn point(&self, index: usize) -> Point {
         assert!(index < self.len(), "there are {} points", self.len());
         let settings = self.len() / self.seeds.len();

@@ -13,7 +13,7 @@ use crate::canonical;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Line {
-    /// The point's name: the hash of all that it is made of.
+    /// The point's name: the hash of everything that it is made of.
     pub key: String,
     /// Seed of the scene.
     pub seed: u64,

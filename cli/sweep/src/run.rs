@@ -117,7 +117,7 @@ impl<'a> Runner<'a> {
     fn in_loop(&self, bench: &LoopBench, profile: &Profile, times: &mut Times) -> Result<Results> {
         let start = Instant::now();
         let rows = bench.run(profile, self.plan.fidelity.into())?;
-        // Plant and core take turns: their times are not told apart.
+        // Plant and core alternate: their times are not measured apart.
         times.plant = start.elapsed().as_secs_f64() / bench.simulated_s();
         let valid: Vec<[&Row; 2]> = bench.valid(&rows).collect();
         let of =

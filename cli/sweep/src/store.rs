@@ -4,7 +4,7 @@
 //!
 //! | folder | holds |
 //! | --- | --- |
-//! | `plans/` | plans that were run, by their name, with all that they need, and how many points make a chunk |
+//! | `plans/` | plans that were run, by their name, with everything that they need, and how many points make a chunk |
 //! | `parts/` | results, a line per point; a part is named by its points |
 //! | `index/` | the points of each part, so that a chunk need not read what it does not ask for |
 //! | `times/` | how long they took, by the same name |

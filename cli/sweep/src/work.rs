@@ -133,7 +133,7 @@ impl<'a> Work<'a> {
     /// Runs a chunk's points that have no line; how many.
     ///
     /// # Errors
-    /// A part that cannot be written, an interruption; a host that differs from the one that made the
+    /// A part that cannot be written, an interruption; a host that differs from the host of the
     /// store's reference.
     pub fn run_chunk(&self, chunk: &Chunk, progress: &(dyn Fn() + Sync)) -> Result<usize> {
         let range = chunk.first..chunk.first.saturating_add(chunk.count);
@@ -160,8 +160,8 @@ impl<'a> Work<'a> {
         host::check(self.store, &self.plan_name, || Ok(self.runner().run(&self.plan.point(0))?.0))
     }
 
-    /// Runs all that is missing on all threads of the pool that this is called in. Chunks that another
-    /// runner is at are left to it; they are run here as well where it ends without them.
+    /// Runs everything that is missing on all threads of the pool that this is called in. Chunks that
+    /// another runner is at are left to it; they are run here as well where it ends without them.
     ///
     /// # Errors
     /// As [`Work::run_chunk`]; what other chunks have stored stays.

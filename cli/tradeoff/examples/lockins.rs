@@ -2,8 +2,8 @@
 //! The core's lock-in beside idsp's, on the same samples of scenes' slots: errors against the ideal
 //! estimator, and time per channel sample: `lockins [PROFILE]…`.
 //!
-//! Behind idsp's lock-in, and behind `f32`, the estimator is in floating point; idsp has no mean square
-//! of the haptic voltage, and is given the ideal one.
+//! Behind idsp's lock-in, and behind `f32`, the estimator is in floating point. idsp has no mean square
+//! of the haptic voltage; this program supplies the ideal one.
 
 use anyhow::Result;
 use dsp_process::SplitProcess;

@@ -25,7 +25,7 @@ pub struct Bench {
 }
 
 impl Bench {
-    /// Some slots of a case; with `sampled` cores are given samples, else phasors.
+    /// Some slots of a case; with `sampled` cores receive samples, else phasors.
     ///
     /// # Errors
     /// A case that cannot be run, as [`slots`].
@@ -75,7 +75,7 @@ impl Bench {
         &self.scene
     }
 
-    /// Whether so many slots leave others between them.
+    /// Whether `count` slots leave others between them.
     pub fn has_between(&self, count: usize) -> bool {
         self.all / count.max(1) > 1
     }
@@ -90,7 +90,7 @@ impl Bench {
         &self.slots
     }
 
-    /// Some of them, spread evenly: at most so many.
+    /// Some of them, spread evenly: at most `most`.
     pub fn some(&self, most: usize) -> impl ExactSizeIterator<Item = &Slot> {
         self.slots.iter().step_by(self.slots.len().div_ceil(most.max(1)))
     }

@@ -22,7 +22,8 @@ pub struct Choice {
 
 /// How often the multipliers are improved.
 const STEPS: u32 = 400;
-/// Choices that are looked at at most: the best so far is then given, which may not be the best.
+/// The most choices that are tried: then the search returns the best so far, which may not be the
+/// best.
 const NODES: usize = 5_000_000;
 /// Costs and errors nearer than this are the same.
 const SAME: f64 = 1e-9;

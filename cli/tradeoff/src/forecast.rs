@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What is told of a profile before a core of it has run: its cost, and the errors that are expected of
-//! it, over all scenes.
+//! Forecast of a profile before a core of it has run: its cost, and its expected errors over all
+//! scenes.
 
 use super::bench::Bench;
 use super::cost::{Cost, cost};
@@ -12,7 +12,7 @@ use hapticore_model::fidelity::noise::Predictor;
 /// How many slots of a scene a prediction is made of.
 const SLOTS: usize = 24;
 
-/// What is told of a profile before a core of it has run.
+/// Forecast of a profile before a core of it has run.
 #[derive(Debug, Clone)]
 pub struct Forecast {
     /// What it costs.
@@ -27,7 +27,7 @@ pub struct Forecast {
     pub is_of_one: [bool; 3],
 }
 
-/// What is told of a profile on scenes.
+/// The forecast of a profile on scenes.
 ///
 /// # Errors
 /// A core that cannot be, a calibration that its words cannot represent.

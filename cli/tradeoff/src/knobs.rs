@@ -198,7 +198,7 @@ const BLOCKS: [u64; 4] = [0, 4, 8, 12];
 /// By how many bits a total is wider than a terminal's word with the same point.
 const TOTAL_BITS: u8 = 2;
 
-/// Words that may be moved up by so many bits; those that may not have the total's point.
+/// Sets by how many bits words may be moved up. Words that may not be moved have the total's point.
 fn move_block(profile: &mut Profile, shift: u8) {
     let f = &mut profile.formats;
     f.block_shift = shift;

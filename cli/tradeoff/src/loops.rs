@@ -24,10 +24,10 @@ use hapticore_scene::{Case as SceneCase, ControlLaw, Scene};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// Of a loop, which is run from its beginning, so many times as many slots as of other scenes.
+/// A loop is run from its beginning, over this many times as many slots as other scenes.
 pub const LOOP_SLOTS: usize = 20;
 
-/// The finest ADC that a core may have: what the ideal one is given.
+/// The finest ADC that a core may have: that of the ideal core.
 const FINE: Format = Format::signed(24, 23);
 
 /// What a core changes of loops; none of a quantity that no scene has.
@@ -91,7 +91,7 @@ pub struct LoopBench {
     scene: Arc<Scene>,
     index: usize,
     slots: usize,
-    /// Whose words the ideal core is given, which rounds none of them.
+    /// The profile whose formats the ideal core has; it rounds none of its words.
     words: Profile,
     of: Profile,
     ideal: Vec<Row>,
@@ -99,7 +99,7 @@ pub struct LoopBench {
 }
 
 impl LoopBench {
-    /// So many slots of a case at most, from its beginning on. Profiles are tried in the slot that the
+    /// At most `slots` slots of a case, from its beginning on. Profiles are tried in the slot that the
     /// scene asks for, else in their own. The ideal core has the structure of a profile, and the formats
     /// of `words`, so that it does not depend on which of several profiles is the first.
     ///
@@ -206,7 +206,7 @@ pub fn is_flagged(row: &Row) -> bool {
     ["invalid", "clipped", "saturated"].iter().any(|flag| row.flags.contains(flag))
 }
 
-/// Whether the ideal core, which is given the formats of `words`, is the same for two profiles.
+/// Whether the ideal core, which has the formats of `words`, is the same for two profiles.
 pub fn is_same_loop(words: &Profile, one: &Profile, other: &Profile) -> bool {
     with_words(one, words) == with_words(other, words)
 }

@@ -7,8 +7,8 @@
 //!
 //! v_k, the variance that the word of knob k adds, and s_k, what a bit of it costs, come from one
 //! prediction and one netlist per knob; any combination then is a sum. From the longest words on, the
-//! bit is taken away that saves most area for the error that it adds, as long as the limits hold;
-//! branch and bound ([`super::exact`]) then finds what is cheaper.
+//! search removes the bit that saves most area for the error that it adds, as long as the limits
+//! hold. Branch and bound ([`super::exact`]) then finds what is cheaper.
 
 use super::cost::{Cost, cost};
 use super::errors::Errors;
@@ -70,12 +70,12 @@ impl Slope {
         Ok(Slope { range: range(self.knob, profile), luts, ..*self })
     }
 
-    /// The variance that the word adds with so many bits beyond that at `base`, over the latter.
+    /// The variance that the word adds with `bits` bits beyond that at `base`, over the latter.
     fn grown(&self, bits: u64) -> f64 {
         4f64.powi(self.base as i32 - bits as i32) - 1.0
     }
 
-    /// LUT4 that so many bits cost beyond those at `base`.
+    /// LUT4 that `bits` bits cost beyond those at `base`.
     fn more_luts(&self, bits: u64) -> f64 {
         self.luts * (bits as f64 - self.base as f64)
     }

@@ -16,7 +16,7 @@ use hapticore_run::record::Quantities;
 use hapticore_scene::{Case as SceneCase, Complex, Plant, Truth};
 use toml::{Table, Value};
 
-/// An ADC that rounds nothing away: what the ideal estimator is given.
+/// An ADC that rounds nothing away: that of the ideal estimator.
 pub const FINE: Format = Format::signed(30, 29);
 
 /// A slot of a scene.
@@ -24,7 +24,7 @@ pub const FINE: Format = Format::signed(30, 29);
 pub struct Slot {
     /// Pad, from 0.
     pub pad: usize,
-    /// What a core is given of it.
+    /// What a core receives of it.
     pub signals: Signals,
     /// What the ideal estimator makes of it.
     pub ideal: Values,
@@ -71,7 +71,7 @@ pub fn unrounded(case: &SceneCase) -> Result<Vec<(String, String)>> {
     };
     let Some(bits) = number("quantisation_bits") else { return Ok(Vec::new()) };
     let dither = number("dither_lsb_rms").filter(|lsb| *lsb > 0.0);
-    // Dither of more than so many codes is refused by the scene.
+    // The scene refuses dither of more than `MOST_DITHER_LSB` codes.
     let room = dither.map_or(f64::INFINITY, |lsb| (MOST_DITHER_LSB / lsb).log2().floor());
     let finer = (FINEST_BITS - bits).min(room).max(0.0);
     let set = |key: &str, value: f64| (format!("sensor.{key}"), value.to_string());
@@ -87,14 +87,14 @@ const MOST_DITHER_LSB: f64 = 1e3;
 /// Which slots of a case.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Which {
-    /// So many, spread over its time.
+    /// This many, spread over its time.
     Every(usize),
     /// Those in the middle between these; where there are none between, the same.
     Between(usize),
 }
 
 impl Which {
-    /// The numbers of the slots, of so many.
+    /// The numbers of the slots, out of `slots`.
     fn of(self, slots: usize) -> impl Iterator<Item = usize> {
         let (count, is_between) = match self {
             Which::Every(count) => (count, 0),
@@ -105,7 +105,7 @@ impl Which {
     }
 }
 
-/// Slots of a case; those without a valid position are left out. With `sampled` cores are given samples, else phasors.
+/// Slots of a case; those without a valid position are left out. With `sampled` cores receive samples, else phasors.
 ///
 /// # Errors
 /// A case that is controlled, or whose pads are served part by part; no slot with a valid position.
@@ -162,7 +162,7 @@ fn phasors(plant: &mut Plant, number: usize) -> Signals {
     Signals::Phasors { amplitudes, mean_square }
 }
 
-/// What a core with such an ADC is given of a slot.
+/// What a core with such an ADC receives of a slot.
 pub fn digitised(pad: usize, signals: &Signals, adc: Format) -> engine::Slot {
     let signals = match signals {
         Signals::Samples(samples) => {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The cheapest profile for a stated error: found by the [`Model`] or among the rows of the sweep, and judged by running
-//! it on slots that neither has seen, on the scene where it is worst. Where it fails, the search is repeated with a
-//! smaller target; where nothing holds, what is found is no larger than the profile that the search began with.
+//! The cheapest profile for a stated error. It comes from the [`Model`] or from the rows of the sweep, and is
+//! judged by running it on slots that neither has used, on the scene where it is worst. Where it fails, the search
+//! is repeated with a smaller target; where nothing holds, what is found is no larger than the profile that the
+//! search began with.
 
 use super::cost::Cost;
 use super::errors::{Error, Errors, Quantity};

@@ -76,7 +76,7 @@ pub struct Judged {
 }
 
 impl Trial {
-    /// A trial of a profile, and of others about it, on so many slots of each scene. Of scenes whose
+    /// A trial of a profile, and of others about it, on `slots` slots of each scene. Of scenes whose
     /// slots depend on the core it is the first twenty times as many.
     pub fn new(scenes: Vec<Scene>, profile: Profile, slots: usize) -> Self {
         let tried = scenes.iter().map(|scene| &scene.cases[case_of(scene)]);
@@ -143,7 +143,7 @@ impl Trial {
         Ok(points)
     }
 
-    /// What is told of profiles before a core of any has run, on all cores.
+    /// Forecasts of profiles before a core of any has run, on all processors.
     ///
     /// # Errors
     /// As [`run`](Self::run).

@@ -100,7 +100,7 @@ pub struct ConstantWord {
     pub format: Format,
 }
 
-/// A calibration as codes for a core: what its ports and its position table are given.
+/// A calibration as codes for a core: the values of its ports and of its position table.
 ///
 /// ```
 /// # use hapticore_contract::calibration::{Calibration, ForceTable, Point, PositionTable};

@@ -34,8 +34,8 @@
 //! ```
 //!
 //! A character without a stop bit counts as END at either end (POSIX terminals read it as a zero
-//! byte unless they are told otherwise). END on the line is nine low bits, so that whoever has lost
-//! the place of the characters' start bits finds no stop bit within the next END.
+//! byte unless they are configured otherwise). END on the line is nine low bits, so that a receiver
+//! that has lost the place of the characters' start bits finds no stop bit within the next END.
 //!
 //! [`Register::ALL`]: crate::Register::ALL
 
@@ -93,10 +93,9 @@ pub mod flags {
     pub const VERSION: u8 = 1;
 }
 
-/// The version of what this file says: 1 to 7. Version 1 was SLIP with CRC-16 and a sequence number
-/// of 8 bits; version 2 had flags of one byte, no register of the capacitance of a
-/// contact, and neither the test of the ADC's lines nor the output. To one version the other's packets
-/// are damaged ones.
+/// The version of what this file says: 1 to 7. Version 1 was SLIP with CRC-16 and a sequence number of
+/// 8 bits. Version 2 had flags of one byte, no register of the capacitance of a contact, and neither
+/// the test of the ADC's lines nor the output. To one version the other's packets are damaged ones.
 pub const VERSION: u8 = 3;
 
 /// The format of a count of commands, and of a pad.

@@ -33,7 +33,7 @@ const MOST_TURN: u64 = (1 << (16 - TURN)) - 1;
 pub enum Wave {
     /// A constant voltage.
     Dc,
-    /// A voltage that turns its polarity with every so many slots of its pad.
+    /// A voltage that reverses its polarity every `turn_slots` slots of its pad.
     Square {
         /// Slots of a pad from turn to turn.
         turn_slots: u64,

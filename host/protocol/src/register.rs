@@ -27,8 +27,9 @@ pub enum Register {
 /// The format of a register's number.
 pub const PLACE: Format = Format::unsigned(3, 0);
 
-/// Number of the heartbeat's word that holds, from the beginning of a test of the ADC's lines until the next word is sent to
-/// the ADC, the code that the test has read: zero where there is none yet, or where it was not the same each time.
+/// Number of the heartbeat's word that holds the code read by a test of the ADC's lines, from the beginning of the test
+/// until the next word is sent to the ADC. The code is zero where there is none yet, or where it was not the same each
+/// time.
 pub const LINES: usize = Register::Adc.number();
 
 /// The format of what the ADC takes.

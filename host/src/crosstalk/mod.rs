@@ -4,14 +4,14 @@
 //! which no core holds.
 //!
 //! A frame says which ratios the terminals' currents had, and where an isolated pad would have been
-//! measured so. Wanted is the place x at which a pad among the others has them, r(x among others) =
-//! r(measured), by Newton's steps with the isolated pad's slopes from where it was measured; the
-//! capacitance follows from how much of the sum the others take. Others' own frames, a round old,
-//! are near enough: they enter in second order only.
+//! measured so. The canceller solves r(x among others) = r(measured) for the place x of the pad
+//! among the others, by Newton's steps with the isolated pad's slopes from where it was measured.
+//! The capacitance follows from how much of the sum the others take. Others' own frames, a round
+//! old, are near enough: they enter in second order only.
 //!
-//! The sheet's potential is that of the nominal sheet ([`SheetModel`]), its film uniform; what an
-//! isolated pad has is that plus what the device's own calibration found beyond it, and the
-//! coupling is as much stronger as the calibration's R_p is larger.
+//! The sheet's potential is that of the nominal sheet ([`SheetModel`]), its film uniform. An
+//! isolated pad's ratios are the nominal ones plus the deviation that the device's own calibration
+//! found. The coupling is scaled by the calibration's R_p over the nominal R_p.
 //!
 //! The force goes with the square of the capacitance, by eq. 8: it must have no memory beyond the
 //! slot.

@@ -69,7 +69,7 @@ use serde::Deserialize;
 pub struct DeviceCalibration {
     /// Number of pads, selected in turn.
     pub pads: u64,
-    /// Of them, so many in a row are parts of one pad.
+    /// Of them, this many in a row are parts of one pad.
     #[serde(default = "whole")]
     pub parts: u64,
     /// The signs of the terminals' currents in the ratios of `map`.
@@ -132,14 +132,14 @@ pub struct Scales {
     pub contact_pf: Option<f64>,
 }
 
-/// Share of the capacitance that a pad has at rest: with less it is lifted.
+/// Share of a resting pad's capacitance: with less the pad is lifted.
 pub const CONTACT_SHARE: f64 = 0.3;
 
 /// The largest `contact_pf`.
 pub const MOST_CONTACT_PF: f64 = 1e6;
 
-/// Share of the capacitance at full scale that takes the place of `contact_pf` where a calibration has none. A pad at rest whose
-/// current is less would use a tenth of the converter's range.
+/// Share of the capacitance at full scale that takes the place of `contact_pf` where a calibration has none. A resting
+/// pad whose current is less would use a tenth of the converter's range.
 const CONTACT_SHARE_OF_FULL_SCALE: f64 = 0.1;
 
 /// Places in whole rows: `[x_mm, y_mm, r_x, r_y, sheet_ohm]`.

@@ -35,7 +35,7 @@ struct Step {
     share: f64,
 }
 
-/// The places of a line of so many points with `times` as many steps.
+/// The places of a line of `points` points with `times` as many steps.
 fn steps(points: usize, times: usize) -> Vec<Step> {
     let step =
         |k: usize| Step { points, after: k / times, share: (k % times) as f64 / times as f64 };

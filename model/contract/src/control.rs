@@ -65,9 +65,9 @@ pub struct Control {
     pub gain: Format,
     /// Cells of the curve, a power of two.
     pub cells: u64,
-    /// So many invalid frames of a pad in a row are a fault.
+    /// The number of invalid frames of a pad in a row that are a fault.
     pub invalid_frames: u64,
-    /// So many milliseconds without a sign of life from the host are a fault; the last may be a part of one.
+    /// Milliseconds without a sign of life from the host that are a fault; the last may be a part of one.
     #[serde(default = "silent_ms")]
     pub silent_ms: u64,
 }
@@ -113,7 +113,7 @@ pub struct Tuning {
     pub correction: f64,
     /// The largest drive word.
     pub rail: f64,
-    /// The largest change of a drive word from frame to frame; off, a fault and a lower rail act at once.
+    /// The largest change of a drive word from frame to frame; it does not limit off, a fault or a lower rail.
     pub slew: f64,
     /// A force beyond it is a fault, N.
     pub force_cap: f64,
@@ -167,7 +167,7 @@ impl Tuning {
     }
 }
 
-/// Faults of a controller: each takes every drive to zero at once, until it is cleared.
+/// Faults of a controller: each takes every drive to zero immediately, until it is cleared.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash)]
 pub struct Faults {
     /// The host was silent for too long.

@@ -111,8 +111,8 @@ pub trait Block: Interface {
         inputs: Inputs<Self, Signal<V>>,
     ) -> Outputs<Self, Signal<V>>;
 
-    /// [`Block::clock`] with codes, for whoever need not have it inlined. A large block has the same
-    /// out of line, so that it is compiled once, with its crate:
+    /// [`Block::clock`] with codes, for callers that do not need it inlined. A large block has the same out of line, so
+    /// that it is compiled once, with its crate:
     ///
     /// ```text
     /// #[inline(never)]
@@ -191,7 +191,7 @@ impl<B: Interface, V: Interpretation> State<B, V> {
 }
 
 impl<B: Interface> State<B, Clocked> {
-    /// The state as a value of whoever clocks it many times, until it is [put back](Self::put_back).
+    /// The state as a value that the caller clocks many times, until it is [put back](Self::put_back).
     ///
     /// The compiler then keeps registers in those of the processor. Behind a reference it writes each of them into
     /// memory in every clock, for a word that is written into a block's memory might be one of them. A value with a

@@ -47,12 +47,12 @@
 /// assert_eq!(state.registers.sum, -300);
 /// ```
 ///
-/// The formats in `inputs(accumulator) { … }` are expressions in which `accumulator` is the block;
-/// a register that holds the state of a state machine is written `step in Step`, with
-/// [`States`](crate::states::States); a bundle within is written `group as Group: formats`. `struct
-/// Name("module", reset: false)` says that registers have no reset in hardware. The macro declares
-/// the configuration, the bundles `Inputs`, `Outputs` and `Registers`, their signals `In<V>`,
-/// `Out<V>` and `Regs<V>`, and `Submodules`: one block per Rust module.
+/// The formats in `inputs(accumulator) { … }` are expressions in which `accumulator` is the block.
+/// A register that holds the state of a state machine is written `step in Step`, with
+/// [`States`](crate::states::States); a bundle within is written `group as Group: formats`.
+/// `struct Name("module", reset: false)` says that registers have no reset in hardware. The macro
+/// declares the configuration, the bundles `Inputs`, `Outputs` and `Registers`, their signals
+/// `In<V>`, `Out<V>` and `Regs<V>`, and `Submodules`: one block per Rust module.
 #[macro_export]
 macro_rules! block {
     (

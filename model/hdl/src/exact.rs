@@ -111,7 +111,7 @@ impl Exact {
         (over(self), over(other), places)
     }
 
-    /// The number in steps of a format: whole steps, the rest, and what the rest is a part of.
+    /// The number in steps of a format: whole steps, the remainder, and its denominator.
     fn steps(self, format: Format) -> (i128, i128, i128) {
         let up = power(u32::try_from(format.frac).unwrap_or(0));
         let down = power(u32::try_from(-format.frac).unwrap_or(0));

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a simulation lets others look at: its variables by name, and their codes at this clock.
+//! What a simulation exposes: its variables by name, and their codes at this clock.
 //!
 //! Names, formats, units and state names come from the bundles that declare registers and ports. A
-//! probe only looks: it takes no part in the simulation, and costs nothing where nobody asks.
+//! probe only observes: it takes no part in the simulation, and costs nothing where no tracer reads
+//! it.
 
 use crate::block::{Block, Interpretation, State, Submodule, Visitor};
 use crate::bundle::Field;
@@ -11,7 +12,7 @@ use crate::format::Format;
 /// One named variable of a simulation.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Variable {
-    /// The instances from the top down to the one that owns the variable.
+    /// The instances from the top down to the owner of the variable.
     pub scope: Vec<String>,
     /// Its name within the instance, as declared by its bundle; with a number where another's is the same.
     pub name: String,
@@ -21,7 +22,7 @@ pub struct Variable {
     pub states: &'static [&'static str],
 }
 
-/// Something whose variables can be looked at after each clock.
+/// A simulation whose variables can be read after each clock.
 pub trait Probe {
     /// The variables, in the order of [`Probe::sample`].
     fn variables(&self) -> Vec<Variable>;

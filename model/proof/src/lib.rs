@@ -50,7 +50,7 @@ impl Proof {
 /// Rounds after which words that still grow are widened: what starts at reset has filled by then.
 const FILLED: u64 = 2;
 
-/// Rounds after which a proof that has not closed is given up.
+/// The prover stops after this number of rounds if the proof has not closed.
 const MOST_ROUNDS: u64 = 8;
 
 /// Tries to prove a profile's core.

@@ -296,7 +296,7 @@ fn tried(key: &str) -> [usize; 2] {
 
 #[test]
 fn any_profile_that_is_accepted_elaborates_and_is_proved() {
-    // One lane of every other key beside one of the rest.
+    // One lane of every other key beside one of the remaining keys.
     let lane = |first: usize| {
         FORMATS.iter().skip(first).step_by(2).map(|key| tried(key)).collect::<Vec<_>>()
     };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Random profiles: one that is accepted is proved, every narrowing and every address of it; one that
-//! is refused is refused with the name of its field or signal, and the bits that a word lacks.
+//! Random profiles: the proof covers every narrowing and every address of an accepted profile. A refusal names the
+//! profile's field or signal, and the bits that a word lacks.
 
 use hapticore_contract::control::{Control, Law};
 use hapticore_contract::profile::{ForceLaw, Method, Profile, ProfileError, Window};

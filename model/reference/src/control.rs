@@ -10,9 +10,9 @@
 //! ```
 //!
 //! The drive is held within 0 … rail, then within slew of the pad's last, at most the rail. c stays as it is while
-//! estimates are invalid; against a limit that holds the drive it goes as far as drive − (D + K·e), and not
-//! back. A fault takes every drive to zero at once, and each pad then begins at zero, with c at zero; so does a
-//! lifted pad, which rises no faster than a contact may until its drive is what the law wants.
+//! estimates are invalid; against a limit that holds the drive it goes as far as drive − (D + K·e), and not back. A
+//! fault takes every drive to zero immediately, and each pad then begins at zero, with c at zero. A lifted pad begins
+//! in the same way, and rises no faster than a contact may until its drive is what the law wants.
 
 use hapticore_contract::control::{Control, Drive, Faults, Law, Tuning};
 
@@ -53,7 +53,7 @@ pub struct Controller {
 }
 
 impl Controller {
-    /// A controller of so many pads, tuned, with all drives at zero.
+    /// A controller of `pads` pads, tuned, with all drives at zero.
     pub fn new(control: &Control, tuning: &Tuning, pads: usize) -> Self {
         Controller {
             control: control.clone(),

@@ -175,7 +175,7 @@ impl<T: Real> Reference<T> {
             _ => self.demodulate_each(codes),
         };
         let [low, high] = self.full_scale;
-        // Without a branch, so that several codes are compared at once.
+        // Without a branch, so that the compiler compares several codes per instruction.
         let clipped =
             codes.iter().fold(false, |clipped, &code| clipped | (code == low) | (code == high));
         let phasors = std::mem::take(&mut self.sums);
@@ -211,8 +211,8 @@ impl<T: Real> Reference<T> {
         self.held[self.last].eq6
     }
 
-    /// Phasors into `sums`; gives the mean square. With the number of channels known as this is compiled,
-    /// those of two channels are added up at once.
+    /// Phasors into `sums`; gives the mean square. With the number of channels known at compile time, the compiler adds
+    /// two channels per instruction.
     fn demodulate<const CHANNELS: usize>(&mut self, codes: &[i32]) -> T {
         // The haptic channel's are not used; to leave it out takes longer.
         let [mut in_phase, mut quadrature] = [[T::zero(); CHANNELS]; 2];

@@ -8,8 +8,8 @@
 //! | [`rounded`] | the exact value, rounded where and how the blocks' docs say | the clocked core: equal to the bit |
 //!
 //! Absent: the core. This crate depends on the contract alone (profiles, frames, calibrations,
-//! number formats), so that it cannot share a line with a block or with the signals of the hardware
-//! language: its rounding, roots, division, tables and sums are its own.
+//! number formats). It can share no line with a block or with the signals of the hardware language:
+//! its rounding, roots, division, tables and sums are its own.
 //!
 //! What `f64` rounds is itself measured: [`Reference::with_precision`] takes a type with more bits,
 //! and `cargo run --release -p hapticore-tests --example reference_error` prints the difference on

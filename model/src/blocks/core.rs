@@ -155,8 +155,8 @@ impl Core {
         &self.estimator
     }
 
-    /// From now on interpretations of codes have positions at once, without their clocks, from a
-    /// position table of these codes.
+    /// From now on interpretations of codes compute positions in one step, without their clocks,
+    /// from a position table of these codes.
     pub(crate) fn place_at_once(&mut self, table: Vec<i64>) {
         self.estimator.place_at_once(table);
     }

@@ -30,9 +30,9 @@
 //! | sum      | exact                | full scale · samples | cannot (range proof) |
 //!
 //! What rounding leaves of w·cos and w·sin is carried to the next sample's, so that the sums of the
-//! words are those of the products to half a word, wherever one stops: rounding has no share at low
-//! frequencies. w·h is rounded half even. A carrier with five samples per period may have its sums
-//! by phase instead: see `demodulator/polyphase.rs`.
+//! words are those of the products to half a word, wherever one stops. Rounding then has no share
+//! at low frequencies. w·h is rounded half even. A carrier with five samples per period may have
+//! its sums by phase instead: see `demodulator/polyphase.rs`.
 //!
 //! q is positive where the channel lags. The answer to `channel` is expected one cycle later as
 //! `code`. Latency: products + 3 clocks from `start` to the last sum. Source: paper, eqs. 1 and 5,
@@ -155,7 +155,7 @@ impl Demodulator {
         let channels = profile.demodulated();
         let polyphase =
             (profile.carrier.method == Method::Polyphase).then(|| Polyphase::new(profile));
-        // Of products with nothing to join, two more are looked at.
+        // Of products with nothing to join, two more are counted.
         let products =
             if polyphase.is_some() { profile.slot.integrate + 2 } else { profile.slot.integrate };
         // A flat window of the most negative haptic code sums to its number of samples: one code more than fits where that

@@ -222,7 +222,7 @@ impl Divider {
         }
         let width = u64::from(self.quotient.width);
         let idle = Registers { done: bit(false), ..r };
-        // One subtractor serves every step; the last looks at twice the remainder.
+        // One subtractor serves every step; the last compares twice the remainder.
         let shifted = r.remainder.concat(r.tail.msb() & !r.count.is(width + 1)).named("shifted");
         let rest = (shifted - i.denominator.integer()).named("rest");
         next!(self, state,

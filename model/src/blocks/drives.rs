@@ -7,11 +7,10 @@
 //! targets ─[of every pad]─ target ─────────────┘
 //! ```
 //!
-//! A pad's target and the settings of controller and walls are taken once, as its estimate is given:
-//! what is written later counts from the next frame on. The curve is not: it is written while no drive
-//! word is being made. Writing a target is a sign of life of the host. A split pad has a drive word after
-//! the slot of its last part, by whose number it is known; its target is the larger of the one
-//! written and the wall's.
+//! The drives take a pad's target and the settings of controller and walls once, with its estimate: what is written
+//! later counts from the next frame on. The curve is an exception: it is written while no drive word is being made.
+//! Writing a target is a sign of life of the host. A split pad has a drive word after the slot of its last part, by
+//! whose number it is known; its target is the larger of the one written and the wall's.
 //!
 //! After a reset, and from the beginning of `clear` on, every pad's target is zero until one is written, `clear` or not.
 //! In a clock in which `enable` is not set, drives are off, whatever was taken with the estimate. Latency: two clocks, or
@@ -428,7 +427,7 @@ impl Drives {
         }
     }
 
-    /// Extremes with a drive word that is given now; the first after a reading counts alone.
+    /// Extremes with the drive word of this clock; the first after a reading counts alone.
     #[inline(always)]
     fn extremes_with<V: Interpretation>(
         &self,

@@ -14,13 +14,13 @@
 //!                       ratio ─ position ─ capacitance ─ force ─ frames
 //! ```
 //!
-//! One slot is in flight at a time, so that nothing of one pad can meet anything of another: a
-//! profile's slots are longer than the latency, so that a frame is finished before the next sums
-//! come. A prompt estimate therefore finds the resistance of the pad's last slot, whichever pads
-//! came between. Latency: the sum of the stages', from the last sum to the last word.
+//! One slot is in flight at a time, so that nothing of one pad can meet anything of another. A
+//! profile's slots are longer than the latency: a frame is finished before the next sums come. A
+//! prompt estimate therefore finds the resistance of the pad's last slot, whichever pads came
+//! between. Latency: the sum of the stages', from the last sum to the last word.
 //!
-//! Sums that come earlier, after an upset of the multiplexer, are dropped. Those of the window after
-//! them are taken whatever is under way, so that an upset of `busy` does not stop the core.
+//! Sums that come earlier, after an upset of the multiplexer, are dropped. Those of the window after them are taken
+//! even while the estimator is busy, so that an upset of `busy` does not stop the core.
 
 mod alone;
 mod run_on;
@@ -495,8 +495,8 @@ impl Estimator {
 }
 
 impl Estimator {
-    /// The outputs while nothing is under way: no frame, and so nothing about one; of the last
-    /// prompt estimate, the words.
+    /// The outputs while idle: no frame, and so nothing about one; of the last prompt estimate, the
+    /// words.
     #[inline(always)]
     fn quiet<V: Interpretation>(&self, state: &State<Self, V>, r: Regs<V>, i: &In<V>) -> Out<V> {
         let nothing = FramePort::map(self.frame(), zero);
@@ -546,8 +546,8 @@ impl Estimator {
         PromptPort::map(with_formats, |(signal, format)| signal.where_present(format))
     }
 
-    /// The sheet's resistance: at the pad's last place while the prompt estimate is under way, then
-    /// at this one, which is kept where it is valid and the pad touches.
+    /// The sheet's resistance: at the pad's last place during the prompt estimate, then at this
+    /// one, which is kept where it is valid and the pad touches.
     #[inline(always)]
     fn sheet<V: Interpretation>(
         &self,
@@ -588,7 +588,7 @@ impl Estimator {
         marks::unless(i.clear, marks::written(r.placed, (found, pad), bit(true)))
     }
 
-    /// Whether the prompt estimate is under way.
+    /// Whether the prompt estimate is in progress.
     #[inline(always)]
     fn early<V: Interpretation>(&self, r: &Regs<V>) -> Signal<V> {
         if self.prompts { r.early } else { bit(false) }

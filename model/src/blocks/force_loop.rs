@@ -7,8 +7,8 @@
 //! targets, walls ───────────────────────┘
 //! ```
 //!
-//! The drive word is given before the next window begins, the frame perhaps within it. Latency:
-//! that of the core's prompt estimate, and the drives'.
+//! The drive word comes before the next window begins, the frame perhaps within it. Latency: that
+//! of the core's prompt estimate, and the drives'.
 
 use super::controller::{Faults, Tuning};
 use super::core::{self, Core, Inputs as CoreInputs, Observer, Outputs as CoreOutputs};
@@ -84,7 +84,7 @@ impl ForceLoop {
 }
 
 impl ForceLoop {
-    /// What the drives are given in a clock.
+    /// The inputs of the drives in a clock.
     #[inline(always)]
     fn to_drives<V: Interpretation>(&self, core: &core::Out<V>, i: &In<V>) -> drives::In<V> {
         let (placed, placed_pad, place) = self.drives.place(&core.frames);
@@ -103,8 +103,8 @@ impl ForceLoop {
         }
     }
 
-    /// [`Core::samples`] for whoever looks at frames and at drive words as they are given: in each clock `look` is
-    /// given the core's outputs where they may have a frame's word, and those of drives that do not rest.
+    /// [`Core::samples`] for a caller that uses frames and drive words as they come. In each clock `look` receives the
+    /// core's outputs where they may have a frame's word, and the drives' outputs unless these are idle.
     #[inline(always)]
     pub(crate) fn samples(
         &self,
@@ -125,7 +125,7 @@ struct Driven<'a, L> {
     block: &'a ForceLoop,
     drives: &'a mut State<Drives, Clocked>,
     i: &'a In<Clocked>,
-    /// The drives rest until the core gives them something.
+    /// The drives are idle until the core gives them something.
     rest: bool,
     look: &'a mut L,
 }

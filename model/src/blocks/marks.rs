@@ -9,7 +9,7 @@ use hapticore_hdl::block::Interpretation;
 use hapticore_hdl::format::{Format, MAX_WIDTH};
 use hapticore_hdl::signal::{Signal, zero};
 
-/// The marks of so many pads.
+/// The marks of `pads` pads.
 pub(super) const fn format(pads: u64) -> Format {
     Format::unsigned(pads as u8, 0)
 }

@@ -10,7 +10,7 @@
 //! | count  | counter of a slot         | wraps to zero at the end, by compare |
 //! | pad    | counter of the pads       | wraps to zero at the end, by compare |
 //!
-//! `clear` abandons the slot under way: no pad is driven, and the next strobe is the first of the
+//! `clear` abandons the current slot: no pad is driven, and the next strobe is the first of the
 //! first pad's slot.
 //!
 //! Latency: one clock from a strobe to its `sample`; the flags then hold until the next strobe.

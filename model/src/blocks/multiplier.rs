@@ -6,7 +6,7 @@
 //!       └─halves─(× each of right's halves)─[partial products]─(Σ)─[product]      elsewhere
 //! ```
 //!
-//! A product wider than a hardware multiplier takes several of them and an adder tree; in one clock
+//! A product wider than a hardware multiplier takes several of them and an adder tree. In one clock
 //! that is the slowest path of the core (ECP5, 26 × 26 bits: 14 ns), so that the partial products
 //! have registers. Operands are codes as integers and follow one another clock by clock. Its
 //! registers have no reset, as those within hardware multipliers have none.
@@ -98,8 +98,8 @@ impl Multiplier {
         self.left.product(self.right).assume_frac(0)
     }
 
-    /// An operand as a multiple of `2^low` and the rest: where numbers are not rounded, what the
-    /// multiple leaves of it.
+    /// An operand as a multiple of `2^low` and the remainder: where numbers are not rounded, what
+    /// the multiple leaves of it.
     #[inline(always)]
     fn halves<V: Interpretation>(operand: Signal<V>, low: u8) -> (Signal<V>, Signal<V>) {
         let Format { signed, width, .. } = operand.format;

@@ -344,8 +344,8 @@ impl Oscillator {
 }
 
 impl Oscillator {
-    /// A clock of a sample that is under way, with code of its own for each step: in each copy the compiler sees how
-    /// little that is.
+    /// A clock of a sample in progress, with code of its own for each step: in each copy the compiler sees how little
+    /// that is.
     #[inline(always)]
     pub(super) fn clock_step(
         &self,

@@ -94,7 +94,7 @@ impl SidedWall {
         self.wall.is_busy(&state.submodules.wall)
     }
 
-    /// What the wall is given: without current where no part can be trusted, so that it lets go.
+    /// The wall's inputs: without current where no part can be trusted, so that it releases.
     #[inline(always)]
     fn of_wall<V: Interpretation>(&self, i: In<V>) -> wall::In<V> {
         let f = self.wall.inputs();

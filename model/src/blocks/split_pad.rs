@@ -20,13 +20,13 @@
 //! | C, F    | profile             | pF, N | cannot: a mean                       |
 //! | depth   | positions', one bit more | mm | cannot                              |
 //!
-//! A pad is known by the number of its last part, whose place is the pad's. The wall acts from the
-//! pad's first valid place on, where it has a surface: after a reset, and from the beginning of `clear` on, none has one
-//! until it is written, and with every `clear` a pad needs a new place. Where the estimate of a sensing part is invalid,
-//! or the part does not touch, the wall lets go, the safe side. Quadrants have a wall along either axis, one after the other: that along y is known by the
-//! number of the pad's third part, its bottom is the left of that along x, and the pad takes the larger
-//! force. Latency: three clocks and the wall's for each axis, from the last part's estimate to `done`; four where
-//! words of block RAMs have registers.
+//! A pad is known by the number of its last part, whose place is the pad's. The wall acts from the pad's first valid
+//! place on, where it has a surface. After a reset, and from the beginning of `clear` on, no pad has a surface until it
+//! is written, and with every `clear` a pad needs a new place. Where the estimate of a sensing part is invalid, or the
+//! part does not touch, the wall releases, the safe side. Quadrants have a wall along either axis, one after the other.
+//! The wall along y is known by the number of the pad's third part; its bottom is the left of that along x, and the pad
+//! takes the larger force. Latency: three clocks and the wall's for each axis, from the last part's estimate to `done`;
+//! four where words of block RAMs have registers.
 
 use super::marks;
 use super::sided_wall::{self, SidedWall};
@@ -458,7 +458,7 @@ impl SplitPad {
         ]
     }
 
-    /// What the wall is given.
+    /// The wall's inputs.
     #[inline(always)]
     fn to_wall<V: Interpretation>(&self, r: &Regs<V>, i: &In<V>) -> sided_wall::In<V> {
         let [left, right] = self.sides(r);

@@ -10,9 +10,9 @@
 //! F = min(k_w·|x|, F_max)·gain                                           (docs/physics.md §6)
 //! ```
 //!
-//! That is the rule `sequential`. Where `quiet_frames` is given, as by rule B, the force of a push at rest that
-//! reads weaker falls (`wall/pressed.rs`). By `never` the state stays PUSH (eq. 11, with a force that is linear
-//! in the depth), by `direct` it is FREE in each frame within the wall where y > 0 (eq. 12).
+//! That is the rule `sequential`. With `quiet_frames`, as in rule B, the force of a stationary push that reads weaker
+//! falls (`wall/pressed.rs`). By `never` the state stays PUSH (eq. 11, with a force that is linear in the depth), by
+//! `direct` it is FREE in each frame within the wall where y > 0 (eq. 12).
 //!
 //! ```text
 //! C_L, C_R ─(−, +)─[divider]─ u ─┐

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Fidelity `clock`: every clock of the core, as the board runs it. What nobody looks at between clocks of whole samples
-//! is carried out at once (`blocks/core/samples.rs`).
+//! Fidelity `clock`: every clock of the core, as the board runs it. Whole samples take a fast path that skips the
+//! intermediate clocks (`blocks/core/samples.rs`).
 
 use super::{Gathered, signals};
 use crate::blocks::core::{Core, Inputs, Observer, Outputs};

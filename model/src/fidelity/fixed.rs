@@ -2,12 +2,11 @@
 //! Fidelity `fixed`: the frames that `clock` gives, to the bit, without stepping the clocks of
 //! every sample.
 //!
-//! The local oscillator is the same for every slot, and so is asked once. A window's sums are exact
-//! in the demodulator, so that codes, and numbers that are not rounded, are summed up by a plain loop
-//! over all channels; codes that are too wide for it go through the demodulator's own arithmetic
-//! sample by sample. The estimator then runs through its clocks, a few hundred a slot, of a block one
-//! after the other (`estimator/run_on.rs`); the position's program, most of a slot's clocks, has its results
-//! at once, from codes.
+//! The local oscillator is the same for every slot, and so is asked once. A window's sums are exact in the demodulator.
+//! So a plain loop over all channels adds up codes, and numbers that are not rounded; codes that are too wide for it go
+//! through the demodulator's own arithmetic sample by sample. The estimator then runs through its clocks, a few hundred
+//! a slot, of a block one after the other (`estimator/run_on.rs`). The position's program, most of a slot's clocks,
+//! computes its results in one step, from codes.
 //!
 //! As it is generic over the interpretation, the same run gives the rounding error of every signal
 //! ([`Shadow`](hapticore_hdl::interpretations::shadow::Shadow)): position and sheet resistance have
@@ -125,9 +124,9 @@ impl<V: Interpretation> FixedSimulation<V> {
         self.estimate(pad, clipped)
     }
 
-    /// The frame of a slot whose samples nobody made: from the amplitudes of the terminals and of
-    /// the sensing voltage, in phase and a quarter turn ahead of the carrier, and the haptic
-    /// voltage's mean square, all of full scale. The ADC's rounding is absent, so that
+    /// The frame of a slot without samples: from the amplitudes of the terminals and of the sensing
+    /// voltage, in phase and a quarter turn ahead of the carrier, and the haptic voltage's mean
+    /// square. All are fractions of full scale. The ADC's rounding is absent, so that
     /// [`slot`](FixedSimulation::slot) of the same tones' samples differs by it.
     ///
     /// # Panics
@@ -333,7 +332,7 @@ pub(super) fn calibrated<V: Interpretation>(
 }
 
 /// The frame that an estimator makes of a window's sums. Not inlined: what it borrows is then known
-/// to be apart, and formats need not be looked at again after every word that is written.
+/// to be apart, and the compiler need not read formats again after every word that is written.
 ///
 /// # Panics
 /// Where it does not finish within its latency.
@@ -539,7 +538,7 @@ mod tests {
         }
     }
 
-    /// The same sums in another order: rounding of `f64` is all that may differ.
+    /// The same sums in another order: only rounding of `f64` may differ.
     #[test]
     fn the_loop_over_all_channels_gives_the_unrounded_sums() {
         for profile in Profile::all() {

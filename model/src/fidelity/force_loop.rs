@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A core with its force controller, slot by slot: `fixed` and, of every clock, `clock`.
 //!
-//! Either takes the codes of a slot's window and gives its drive word, and the frame that is
-//! finished: that of the slot, or with `clock`, where slots are short, that of the slot before. What
-//! the ADC sees while a slot is blanked touches neither, so that `clock` is given zeros there: a
-//! plant can then wait for the drive word before it makes the window that depends on it.
+//! Either takes the codes of a slot's window and gives its drive word, and the frame that is finished. That frame is
+//! the slot's or, with `clock`, where slots are short, the one of the slot before. What the ADC sees while a slot is
+//! blanked touches neither, so that `clock` receives zeros there. A plant can then wait for the drive word before it
+//! makes the window that depends on it.
 
 use super::fixed::FixedSimulation;
 use super::{Gathered, signals};
@@ -211,7 +211,7 @@ impl FixedLoop {
     }
 }
 
-/// The drive word that is given.
+/// The drive word on a port.
 fn given(port: DrivePort<Signal<i64>>, faults_port: FaultPort<Signal<i64>>) -> Drive {
     let DrivePort { drive_pad, drive, drive_low, drive_high, drive_target, drive_free, .. } = port;
     let walled = Walled {

@@ -105,9 +105,9 @@ pub struct Predictor {
 }
 
 impl Predictor {
-    /// Below so many steps of the ADC an amplitude meets too few codes for its rounding to be random,
-    /// where no noise is added to it. Errors of tones are then up to three times those predicted; those of samples are
-    /// those of these very samples, and only many slots say what others have.
+    /// Below this number of steps of the ADC an amplitude meets too few codes for its rounding to be random, where no
+    /// noise is added to it. Errors of tones are then up to three times those predicted; those of samples are those of
+    /// these very samples, and only many slots say what others have.
     pub const FEW_CODES: f64 = 128.0;
 
     /// A predictor of a profile's core, calibrated.
@@ -253,8 +253,8 @@ impl Predictor {
     }
 }
 
-/// Samples after which a carrier of so many periods in a window's samples has its phase again, or half a turn
-/// more: then with the sign −1.
+/// Samples after which a carrier of `periods` periods in a window's samples has its phase again, or half a turn more:
+/// then with the sign −1.
 fn repeat(samples: usize, periods: usize) -> (usize, f64) {
     let (mut a, mut b) = (samples, periods);
     while b != 0 {
@@ -274,7 +274,7 @@ fn power_by_phase(waves: &[WindowedSample], of: usize, (lag, sign): (usize, f64)
     phases.iter().map(|of| of * of).sum()
 }
 
-/// ρ of noise whose variance is so many squares of a step.
+/// ρ of noise of this variance, in squares of a step.
 fn correlation(variance: f64) -> f64 {
     let term = |k: f64| 6.0 / (PI * k).powi(2) * (-(TAU * k).powi(2) * variance).exp();
     // As many terms as leave less than a hundredth without noise.

@@ -6,9 +6,10 @@
 //! ```
 //!
 //! The demodulator's operators are exact, so that the order in which its products are added does
-//! not matter; codes, words and partial sums are whole numbers below 2^53, which an `f64` holds
-//! exactly, and of which a processor multiplies several at once. A test holds the frames equal to
-//! those of every clock. With the words that an unrounded core has, the same loop gives its sums.
+//! not matter. Codes, words and partial sums are whole numbers below 2^53, which an `f64` holds
+//! exactly, and of which a processor multiplies several per instruction. A test holds the frames
+//! equal to those of every clock. With the words that an unrounded core has, the same loop gives
+//! its sums.
 
 use crate::blocks::oscillator::PHASES;
 
@@ -35,7 +36,7 @@ pub(super) enum Waves {
     Phases { offset: f64 },
 }
 
-/// The sums of a window of so many channels, the last one haptic.
+/// The sums of a window of N channels, the last one haptic.
 pub(super) struct PlainSums {
     words: Words,
     /// The loop over the samples, with the number of channels known to the compiler.
@@ -100,7 +101,7 @@ impl PlainSums {
 
 type Sum = fn(&Words, &[i32], &mut [f64]) -> f64;
 
-/// The loops over products and over phases of so many channels.
+/// The loops over products and over phases of `channels` channels.
 fn loops(channels: usize) -> Option<[Sum; 2]> {
     Some(match channels {
         2 => [products::<2>, phases::<2>],

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Random operations of a block: their results and their clocks, and the comparison that tells all
-//! when it fails.
+//! Random operations of a block: their results and their clocks, and the comparison that prints
+//! inputs, results and reference when it fails.
 
 use super::harness::{Bench, operations, show};
 use super::random::Random;
@@ -12,7 +12,7 @@ use hapticore_hdl::signal::Signal;
 /// Operations of a block in a test of random ones, over all profiles.
 pub const MILLION: u64 = 1_000_000;
 
-/// Clocks that a block is given in all where its latency is measured, about.
+/// Clocks that a block runs in all where its latency is measured, about.
 const CLOCKS: u64 = 2_000_000;
 
 /// A result by the name of its port.
@@ -95,8 +95,8 @@ pub fn check_latency_of<B: Block>(
     }
 }
 
-/// Holds that a block whose clocks are run on at once has the results of one that is clocked. `run_on`
-/// follows the clock of `start`, and gets its inputs.
+/// Holds that a block that runs through its clocks in one call has the results of one that is clocked. `run_on` follows
+/// the clock of `start`, and gets its inputs.
 pub fn check_run_on<B: Block>(
     [clocked, hurried]: [B; 2],
     legal: impl Fn(Inputs<B, i64>) -> Inputs<B, i64>,
@@ -117,9 +117,9 @@ pub fn check_run_on<B: Block>(
     }
 }
 
-/// Holds that a start while an operation is under way, or in the clock in which it is done, begins anew: results and
-/// clocks are those of the same block that was started once. The operation before is left after so many clocks, of the
-/// latency.
+/// Holds that a start during an operation, or in the clock in which it is done, begins anew: results and clocks are
+/// those of the same block that was started once. `after` gives, for the latency, the clocks after which the operation
+/// before is left.
 pub fn check_restart<B: Block>(
     [mut alone, mut restarted]: [Bench<B>; 2],
     after: impl Fn(u64) -> std::ops::RangeInclusive<u64>,

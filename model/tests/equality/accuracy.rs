@@ -2,10 +2,10 @@
 //! What word lengths cost on clean tones: the deviation of fixed point from floating point on the
 //! same codes, beside the deviation that the word lengths predict.
 //!
-//!   q(f) = lsb / √12                                     the deviation of rounding to f
-//!   ε² = carrier² + 2 q(iq)² / (g a)²           of an amplitude a, relative; g the tone gain
-//!   q(iq) 2^-by where words are moved up by bits; the total's and the sensing voltage's amplitudes then add q(total)
-//!   carrier = 2 q(oscillator) / √N                       the local oscillator's words, of N samples
+//!   q(f) = lsb / √12                                     the deviation of rounding to f.
+//!   ε² = carrier² + 2 q(iq)² / (g a)²           of an amplitude a, relative; g the tone gain.
+//!   q(iq) 2^-by where words are moved up by bits; the total's and the sensing voltage's amplitudes then add q(total).
+//!   carrier = 2 q(oscillator) / √N                       the local oscillator's words, of N samples.
 //!
 //! Onward, δr = Σ (±1 − r) δa / Σ a; a position follows its table's slope; capacitance and force
 //! add their words' own q.

@@ -16,7 +16,7 @@ use std::process::{Command, Stdio};
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
-/// One of so many random operations is done, in each pass.
+/// In each pass, one of this number of random operations is done.
 const SHARES: [&str; 2] = ["2000", "100"];
 
 /// What a test may take: as many times what it takes with the unchanged netlist, and as many seconds.

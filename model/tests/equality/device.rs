@@ -37,8 +37,8 @@ fn shortened(mut profile: Profile) -> Profile {
         .expect("a slot longer than the estimator takes")
 }
 
-/// The short profiles with windows as long as it takes for an estimate to be finished, to a few samples, before
-/// the next sums come; it begins while the next slot is blanked and ends within its window.
+/// The short profiles with windows as long as an estimate takes to finish, to a few samples, before the next sums come.
+/// The estimate begins while the next slot is blanked and ends within its window.
 pub fn overlapping_profiles() -> Vec<Profile> {
     let overlapping = |profile: Profile| {
         let unit = if profile.carrier.method == Method::Polyphase { 5 } else { 4 };

@@ -31,8 +31,8 @@ pub fn in_place_of<B: Block>(block: &B) -> Option<Simulation> {
     }
 }
 
-/// Appends the mutants of a design to a file, those of each test and design once: test, path of the block, whether it is the design's top
-/// (`own`; `equivalent` where that is proved) or `within`, name of the mutant.
+/// Appends the mutants of a design to a file, those of each test and design once. A line has: test, path of the block,
+/// `own` for the design's top (`equivalent` where that is proved) or `within`, name of the mutant.
 fn list(netlist: &Netlist, path: &str) {
     static LISTED: Mutex<BTreeSet<(String, u64)>> = Mutex::new(BTreeSet::new());
     let thread = std::thread::current();

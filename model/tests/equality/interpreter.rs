@@ -2,8 +2,8 @@
 //! An interpreter of netlists: what the captured graph does, clock by clock, with arithmetic of its
 //! own.
 //!
-//! Codes are `i128`, so that no word is short of bits; a wire that leaves its format is a failure
-//! at once.
+//! Codes are `i128`, so that no word is short of bits; a wire that leaves its format fails
+//! immediately.
 
 use hapticore_hdl::format::Format;
 use hapticore_hdl::interpretations::netlist::{Module, Named, Netlist, Node, Op, Ram};
@@ -155,7 +155,7 @@ fn evaluate(op: &Op, to: Format, of: &dyn Fn(Node) -> (i128, Format)) -> i128 {
 }
 
 /// The code in another format. A narrowing that cannot overflow keeps the low bits, as its wire
-/// does; where nobody looks at the wire (an operation that is not under way), it may.
+/// does; it may overflow where the wire is unused (an operation that is not in progress).
 fn fit((code, from): (i128, Format), to: Format, rounding: Rounding, overflow: Overflow) -> i128 {
     let drop = i32::from(from.frac) - i32::from(to.frac);
     let rounded = match rounding {

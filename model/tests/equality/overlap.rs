@@ -13,7 +13,7 @@ use hapticore_model::fidelity::clock::ClockSimulation;
 use hapticore_model::fidelity::force_loop::{ClockLoop, FixedLoop};
 use hapticore_reference::rounded::Slots;
 
-/// Pads by turns, one alone, and the codes of so many slots.
+/// Pads in turn, or the only one, and the codes of `count` slots.
 pub fn slots(
     profile: &Profile,
     count: usize,

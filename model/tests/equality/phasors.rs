@@ -43,7 +43,7 @@ fn rounding(profile: &Profile) -> f64 {
     rounding_of(profile, profile.slot.integrate / common)
 }
 
-/// The same of a tone that repeats after so many samples.
+/// The same of a tone that repeats after `distinct` samples.
 fn rounding_of(profile: &Profile, distinct: u64) -> f64 {
     let adc = profile.formats.adc.lsb() * (2.0 / distinct as f64).sqrt();
     let words = profile.formats.iq.lsb() * 2f64.sqrt() / profile.tone_gain();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A core that is given whole samples, whose blocks are clocked apart, beside one that is clocked as a whole.
+//! A core clocked in whole samples, whose blocks are clocked apart, beside one that is clocked as a whole.
 
 use crate::device::{calibration, overlapping_profiles, short_profiles, short_table_profiles};
 use crate::harness::{operations, show};
@@ -24,7 +24,7 @@ impl Observer for Seen {
     }
 }
 
-/// Two cores of a profile: one that is given whole samples, one that is clocked as a whole.
+/// Two cores of a profile: one clocked in whole samples, one clocked as a whole.
 struct Pair<'a> {
     core: &'a Core,
     apart: State<Core, i64>,
@@ -79,8 +79,8 @@ impl Pair<'_> {
     }
 }
 
-/// A few samples at once, of slots one after the other; now and then between them clocks without a strobe, a
-/// strobe that comes too early, a slot that is abandoned, a table that is written.
+/// A few samples per call, of slots one after the other. Now and then between them: clocks without a strobe, a strobe
+/// that comes too early, a slot that is abandoned, a table that is written.
 #[test]
 fn blocks_clocked_apart_are_the_core_clocked_as_a_whole() {
     let profiles =
@@ -99,7 +99,7 @@ fn blocks_clocked_apart_are_the_core_clocked_as_a_whole() {
         for (slot, (_, codes)) in slots(&profile, operations(12) as usize, seed).enumerate() {
             let mut codes = &codes[..];
             while !codes.is_empty() {
-                // Now and then all that are left, in which a whole program of the position is carried out.
+                // Now and then all remaining ones, in which a whole program of the position is carried out.
                 let some = 1 + random.below(40) as usize;
                 let count = if random.below(4) == 0 { codes.len() } else { some };
                 let (now, later) = codes.split_at(codes.len().min(count * channels));
@@ -147,7 +147,7 @@ fn disturb(
     match random.below(16) {
         0 => (0..random.below(30)).for_each(|_| pair.clock(constants)),
         1 => {
-            // The next sample's strobe comes too early, now and then when all blocks but the pace rest again.
+            // The next sample's strobe comes too early, now and then when all blocks but the pace are idle again.
             pair.clock(Inputs { strobe: 1, ..constants });
             (0..random.below(pair.clocks)).for_each(|_| pair.clock(constants));
         }

@@ -150,7 +150,7 @@ fn check_sums(
     assert_eq!(frame, expected, "clock {}: got, reference of sums {sums:?}; {shown}", bench.clock);
 }
 
-/// The ports of a prompt estimate, while it is given.
+/// The ports of a prompt estimate, in the clock in which it comes.
 fn prompt_codes(profile: &Profile, pad: i64, prompt: &Prompt) -> estimator::PromptPort<i64> {
     let f = &profile.formats;
     estimator::PromptPort {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A force loop at fidelity `clock`, in which drives that rest are left out, beside one that is looked at in each clock.
+//! A force loop at fidelity `clock`, in which idle drives are skipped, beside one that is evaluated in each clock.
 
 use crate::device::calibration;
 use crate::harness::operations;

@@ -16,13 +16,13 @@ use hapticore_model::fidelity::fixed::FixedSimulation;
 use std::f64::consts::{PI, TAU};
 use std::fmt::Write as _;
 
-/// Parts of a bin, one over the window, at which the response is looked at.
+/// Parts of a bin (one over the window) at which the response is evaluated.
 const POINTS_PER_BIN: usize = 16;
-/// Below this, in dB, nobody asks how a response compares with floating point.
+/// Below this, in dB, a response is not compared with floating point.
 const FLOOR: f64 = -110.0;
-/// The reserve is looked at from here to there, Hz.
+/// The reserve is evaluated in this range, Hz.
 const RESERVE: [f64; 2] = [50.0, 20e3];
-/// The amplitude of the tone whose undithered rounding is looked at, in codes, and of how many
+/// The amplitude of the tone whose undithered rounding is measured, in codes, and the number of its
 /// phases.
 const QUIET: f64 = 256.0;
 const PHASES: usize = 256;
@@ -145,7 +145,7 @@ fn response(windowed_carrier: &[Pair], carrier: usize) -> Vec<f64> {
     (0..=half).map(|k| 20.0 * (amplitude(windowed_carrier, k) / one).max(1e-15).log10()).collect()
 }
 
-/// |H(f)| + |H(−f)| at a frequency of so many parts of a bin.
+/// |H(f)| + |H(−f)| at a frequency in parts of a bin.
 fn amplitude(windowed_carrier: &[Pair], frequency: usize) -> f64 {
     let turn = POINTS_PER_BIN * windowed_carrier.len();
     let (step, mut of) = (TAU / turn as f64, [0.0; 4]);

@@ -81,7 +81,7 @@ fn calibration(profile: &Profile) -> Calibration {
     Calibration { contact_capacitance: 0.0, ..device::calibration(profile) }
 }
 
-/// The words of what is looked at.
+/// The formats of the measured quantities.
 fn words(profile: &Profile) -> [Format; 5] {
     let f = &profile.formats;
     [f.position, f.position, f.capacitance, f.force, f.mean_square]

@@ -14,11 +14,12 @@ use hapticore_reference::Reference;
 use std::f64::consts::TAU;
 use xprec::Df64;
 
-/// What is looked at.
+/// The measured quantities.
 pub const QUANTITIES: [&str; 5] = ["x", "y", "C", "F", "m"];
 /// Noise of the analog part, of full scale.
 const NOISE: f64 = 18e-6;
-/// Slots of each point for which errors are predicted, each at a phase of its own; where channels meet few codes, all that are measured.
+/// Slots of each point for which errors are predicted, each at a phase of its own; where channels meet few codes, all
+/// measured slots.
 const PREDICTED: usize = 4;
 /// A converter that rounds nothing away.
 const FINE: Format = Format::signed(30, 29);
@@ -237,8 +238,8 @@ fn samples(profile: &Profile, point: &Point, random: &mut Random) -> Vec<f64> {
     samples
 }
 
-/// The amplitude that the first channel's sums say of an undithered tone of so many periods in the
-/// window, with a carrier of nearly full scale as the measure.
+/// The amplitude of an undithered tone of `periods` periods in the window, from the first channel's sums, with a
+/// carrier of nearly full scale as the measure.
 pub fn amplitude_of_tone(profile: &Profile, amplitude: f64, turn: f64, periods: f64) -> f64 {
     const MEASURE: f64 = 0.9;
     let mut core = FixedSimulation::<i64>::new(profile, &super::device::calibration(profile));

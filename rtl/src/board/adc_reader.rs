@@ -18,14 +18,14 @@
 //!
 //! The ADC puts out the first bit at CS, each other one after a *rising* edge of SCLK, and holds it
 //! until the next. Rising edges leave the FPGA with the edge of the core's clock that also captures
-//! the bit before: a bit has a whole clock less the output's delay, the ADC's access time and the
-//! input's set-up (40 ns less about 5 + 15 + 2 ns at 25 MHz), and the hold is the output's delay
+//! the bit before. So a bit has a whole clock less the output's delay, the ADC's access time and
+//! the input's set-up (40 ns less about 5 + 15 + 2 ns at 25 MHz). The hold is the output's delay
 //! and more. Falling edges, half a clock away, move nothing; SDI, which the ADC latches with them,
 //! changes with the core's clock and so has half a clock on either side.
 //!
-//! A word for a register of the ADC (16 bits over SDI) is sent while nothing is enabled; it lies
-//! with the command that brought it, and `shift` moves that on; what the ADC answers on its first
-//! data line comes in behind it. While `shift` is low, SDI is.
+//! A word for a register of the ADC (16 bits over SDI) is sent while nothing is enabled. It lies
+//! with the command that brought it, and `shift` moves that on; the ADC's answer on its first data
+//! line comes in behind it. While `shift` is low, SDI is.
 //!
 //! Once it is no longer enabled, the reader starts no conversion, but reads the set of one that it
 //! has started, without a strobe: CS and SCLK end as they always do.
@@ -37,7 +37,7 @@
 //! Words go to a memory that the board owns (two sets: one is stored while the core reads the
 //! other). Latency: C + W + 8 clocks from CONVST to `strobe`. Nothing waits for the ADC, so nothing
 //! can hang. Source: data sheets of the AD7606 family, serial interface ("MSB at CS, the others at
-//! the rising edges of SCLK") and register map; [`Parameters`] holds the times that the schedule
+//! the rising edges of SCLK") and register map. [`Parameters`] holds the times that the schedule
 //! asks of the ADC.
 
 use super::bits::{flag, next, read_as, word};

@@ -8,8 +8,8 @@
 //!
 //! Begins at all ones, least significant bit first. A packet carries the complement, least
 //! significant byte first; with these four bytes the CRC of any packet is [`RESIDUE`]. Functions,
-//! not a block: the state lies with whoever sends or receives. Source: IEEE 802.3, §3.2.9; the
-//! catalogue's check value is cbf43926 (hex).
+//! not a block: the sender or receiver holds the state. Source: IEEE 802.3, §3.2.9; the catalogue's
+//! check value is cbf43926 (hex).
 
 use super::bits::{word, xor};
 use hapticore_hdl::format::Format;

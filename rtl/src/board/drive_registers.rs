@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Drive registers: commands as what a force loop is given: settings, its curve, targets, walls.
+//! Drive registers: commands as the inputs of a force loop: settings, its curve, targets, walls.
 //!
 //! ```text
 //! place ─[kind, number]─┬─ settings, kept

@@ -5,8 +5,8 @@
 //! codes of the line ─[first two ignored]─[first]─(=?)─ after 64: the code, or zero
 //! ```
 //!
-//! The ADC is told before to put out a fixed code per channel (its interface check). The host judges the code: neither all
-//! zeros nor all ones, as an open or shorted line has, and no other line's.
+//! A command before the test has the ADC put out a fixed code per channel (its interface check). The host judges the
+//! code: neither all zeros nor all ones, as an open or shorted line has, and no other line's.
 //!
 //! | signal | format    | overflow                       |
 //! | count  | counter 67 | held at its end, by compare   |

@@ -44,7 +44,7 @@ block! {
 }
 
 impl Pads {
-    /// So many pads, with so many clocks at least between two.
+    /// The switches of `pads` pads, with `dead` clocks at least between two.
     pub fn new(pads: u64, dead: u64) -> Self {
         assert!(dead > 0, "a break takes a clock");
         Pads { pads, dead }

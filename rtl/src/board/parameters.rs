@@ -39,7 +39,7 @@ impl From<(Wave, Converter)> for Drive {
 }
 
 impl Drive {
-    /// What heartbeats report of it at a clock of so many hertz.
+    /// What heartbeats report of it at a clock of `clock_hz` hertz.
     pub fn output(&self, clock_hz: u64) -> Output {
         let Drive { wave, converter, full_scale_v } = *self;
         Output { dac: converter.dac(), wave, full_scale_v, clock_hz }
@@ -76,7 +76,7 @@ impl Parameters {
     const CONVERSION_LEAST_NS: u64 = 500;
     /// Clocks of a write of an ADC's register, without the wait before it.
     const WRITE_CLOCKS: u64 = 22;
-    /// What a pad's switch is given to break.
+    /// The time allowed for a pad's switch to break.
     const BREAK_NS: u64 = 1000;
 
     /// What heartbeats report of the drive, where there is one.

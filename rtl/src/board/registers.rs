@@ -117,8 +117,8 @@ pub const LINE_BITS: u8 = 3;
 const ADC_WORD: u8 = 16;
 
 impl CommandRegisters {
-    /// The registers of a core with this calibration, whose position table has so many words; of a drive whose widest word
-    /// has so many bits, where there is one.
+    /// The registers of a core with this calibration and a position table of `words` words; of a drive whose widest
+    /// word has `drive_bits` bits, where there is one.
     pub fn new(calibration: Calibration<Format>, words: u64, drive_bits: Option<u8>) -> Self {
         let formats =
             WordFormats { drive_bits: drive_bits.unwrap_or(0), ..word_formats(&calibration) };

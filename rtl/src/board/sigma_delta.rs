@@ -10,7 +10,7 @@
 //! | rest   | u W                 | –          | wraps, meant: that is a pulse |
 //!
 //! First order: over any stretch of clocks the sum of pulses differs from the sum of `(x + 1) / 2`
-//! by less than one, so the mean over a sample of 25 clocks is within 4 % of full scale and that
+//! by less than one. So the mean over a sample of 25 clocks is within 4 % of full scale, and that
 //! over a window of thousands within parts per million. The error repeats with the carrier, whose
 //! slots are all alike, and capacitance is a ratio to the voltage that is sensed, so that its share
 //! in band cancels. A second order would need 40 cells and a limiter for carriers near full scale.

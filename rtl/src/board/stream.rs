@@ -22,22 +22,21 @@
 //! | distance | counter 8·B + 10, with a drive 10·B + 10 | from a packet's beginning or its last zero byte; no packet is longer |
 //! | pause    | u BEAT + 1       | held at zero while anything is sent or the board is enabled; its top bit ends the pause |
 //!
-//! A zero byte goes out as the distance to the zero byte before it, so links point back: neither the
-//! next zero nor any other byte need be known in advance, and a packet is as long on the line
-//! whatever it contains.
+//! A zero byte goes out as the distance to the zero byte before it, so links point back: neither the next zero nor any
+//! other byte need be known in advance. A packet is as long on the line whatever it contains.
 //!
-//! A heartbeat is a packet whose words are those that have been written into registers. A word that
-//! is to be kept for it waits for the words of a frame to be through, and a clock for the one in
-//! which the next byte is read: no byte of a packet waits for it. A heartbeat whose words are being
-//! sent then ends at once, too short for a packet: bytes of the word before and of this one would
-//! otherwise stand side by side, under a CRC that is right.
+//! A heartbeat is a packet whose words are those that have been written into registers. A word to
+//! be kept for it waits until the words of a frame are through, and one clock where the next byte
+//! is read: no byte of a packet waits for it. A heartbeat whose words are being sent then ends
+//! immediately, too short for a packet. Bytes of the word before and of this one would otherwise
+//! stand side by side, under a CRC that is right.
 //!
-//! A frame that comes while one is being sent is dropped whole, takes its number along, and sets a
-//! flag in the next packet. A packet's own number is its first two bytes, gone before another frame
-//! comes: [`super::parameters`] asks for slots longer than a byte. What happened since the packet
-//! before (late, refused, overrun) is kept until it is told. Latency: (8·B + 11)·(10·D + 1)
-//! clocks, with a drive (10·B + 11)·(10·D + 1), from a frame's last word to the end of the packet's last stop bit, whatever the frame contains
-//! and whatever is commanded meanwhile. Source: [`super::framing`].
+//! A frame that comes while one is being sent is dropped whole, takes its number along, and sets a flag in the next
+//! packet. A packet's own number is its first two bytes, gone before another frame comes: [`super::parameters`] asks
+//! for slots longer than a byte. What happened since the packet before (late, refused, overrun) is kept until a packet
+//! reports it. Latency: (8·B + 11)·(10·D + 1) clocks, with a drive (10·B + 11)·(10·D + 1), from a frame's last word to
+//! the end of the packet's last stop bit. Neither the frame's contents nor commands meanwhile change it. Source:
+//! [`super::framing`].
 
 use super::bits::{flag, next, previous, word as bits_side_by_side};
 use super::crc32;
@@ -144,7 +143,7 @@ const STATUS: u64 = 15;
 const FLAGS_LEFT: u64 = 1;
 /// Bytes of the last group.
 const TRAILER_BYTES: u64 = CRC_BYTES + STUFFING_BYTES;
-/// Heartbeats pause for two to the power of so many clocks.
+/// Heartbeats pause for 2^BEAT clocks.
 const BEAT: u8 = 14;
 
 /// A bit of the version, as heartbeats tell it.
@@ -170,8 +169,8 @@ fn driven(profile: &Profile) -> DrivenPort<Format> {
 }
 
 impl Stream {
-    /// The stream of a profile's frames, with so many clocks per bit, and of a board whose commands
-    /// bring so much data; heartbeats report its output, where there is one.
+    /// The stream of a profile's frames, with `divisor` clocks per bit, and of a board whose
+    /// commands bring data of this format; heartbeats report its output, where there is one.
     pub fn new(profile: &Profile, divisor: u64, data: Format, output: Option<&Output>) -> Self {
         let format = Field::word(profile);
         let mut initial = vec![0.0; 2 * WORDS as usize];
@@ -252,8 +251,8 @@ impl Stream {
         r.group.is(self.trailer).select(trailer, r.group.is(STATUS).select(status, pick(&words)))
     }
 
-    /// What is written: a frame's word, or, between frames and where no byte is read, the one that is
-    /// kept for heartbeats.
+    /// What is written: a frame's word, or, between frames and where no byte is read, the word that is kept for
+    /// heartbeats.
     #[inline(always)]
     fn write<V: Interpretation>(
         &self,

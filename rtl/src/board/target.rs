@@ -192,7 +192,7 @@ impl Target {
         Ok(printed)
     }
 
-    /// A board's top for an ADC of so many channels and so many pads, on its pins.
+    /// A board's top for an ADC of `CHANNELS` channels and for `PADS` pads, on its pins.
     fn top<const CHANNELS: usize, const PADS: usize>(
         self,
         board: Board,
@@ -258,7 +258,7 @@ impl Target {
         let mut text = String::new();
         match self {
             Target::Ulx3s => {
-                // No FREQUENCY: the tool is told what to aim at, which is more than the board's
+                // No FREQUENCY: the flow passes the tool its target, which is more than the board's
                 // clock.
                 for Pin { port, site, also } in pins {
                     let _ = writeln!(text, "LOCATE COMP \"{port}\" SITE \"{site}\";");

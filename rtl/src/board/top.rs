@@ -16,7 +16,7 @@ use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::{BitSynchronizer, DFF};
 
 crate::component! {
-    /// The board as a rust-hdl component, for an ADC of so many channels and so many pads.
+    /// The board as a rust-hdl component, for an ADC of `CHANNELS` channels and for `PADS` pads.
     pub struct BoardComponent<const CHANNELS, const PADS> of whole::Board {
         inputs { dout: Bits<CHANNELS>, busy: Bit, rx: Bit }
         outputs {

@@ -9,18 +9,17 @@
 //! | count    | counter D − 1 | reloaded, by compare |
 //! | position | counter 10    | reloaded, by compare |
 //!
-//! A bit takes D clocks, the divisor. The receiver looks at the middle of each bit; the line passes
-//! two registers first. A character without a stop bit is heard as a zero byte, which ends a packet,
-//! and nothing more until the line is high: a line that stays low is one such byte, and a receiver
-//! that has taken another bit for a start bit finds the right one behind the next zero byte, nine
-//! low bits. Latency: 10·D clocks a byte, and one more from byte to byte for the transmitter to take
-//! the next.
+//! A bit takes D clocks, the divisor. The receiver samples the middle of each bit; the line passes two registers first.
+//! It reports a character without a stop bit as a zero byte, which ends a packet, and then nothing until the line is
+//! high. So a line that stays low is one such byte. A receiver that has taken another bit for a start bit finds the
+//! right one behind the next zero byte, nine low bits. Latency: 10·D clocks a byte, and one more from byte to byte for
+//! the transmitter to take the next.
 //!
-//! **Clocks that differ.** The receiver looks at the stop bit ⌊9½·D⌋ clocks behind the clock that
-//! sees the start bit's edge, which is up to a clock late; that must be within the sender's bit from
-//! 9 to 10. So a sender's bit of b clocks is heard from b = (⌊9½·D⌋ + 1)/10 to b = ⌊9½·D⌋/9: −4.2 %
-//! to +5.6 % with 12 clocks a bit, −4.8 % to +5.3 % with 25 (`rtl/tests/board/clock_error.rs`
-//! measures it). Source: the usual asynchronous serial line (EIA-232 character).
+//! **Clocks that differ.** The receiver samples the stop bit ⌊9½·D⌋ clocks behind the clock that sees the start bit's
+//! edge, which is up to a clock late. The sample must be within the sender's bit from 9 to 10. So a sender's bit of b
+//! clocks is heard from b = (⌊9½·D⌋ + 1)/10 to b = ⌊9½·D⌋/9. That is −4.2 % to +5.6 % with 12 clocks a bit, −4.8 % to
+//! +5.3 % with 25 (`rtl/tests/board/clock_error.rs` measures it). Source: the usual asynchronous serial line (EIA-232
+//! character).
 
 use super::bits::{next, previous};
 use hapticore_hdl::block::{Block, Interpretation, State};
@@ -70,7 +69,7 @@ pub mod receiver {
     }
 
     impl Receiver {
-        /// A receiver with so many clocks per bit.
+        /// A receiver with `divisor` clocks per bit.
         pub fn new(divisor: u64) -> Self {
             Receiver { divisor }
         }
@@ -152,7 +151,7 @@ pub mod transmitter {
     }
 
     impl Transmitter {
-        /// A transmitter with so many clocks per bit.
+        /// A transmitter with `divisor` clocks per bit.
         pub fn new(divisor: u64) -> Self {
             Transmitter { divisor }
         }

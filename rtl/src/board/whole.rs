@@ -381,7 +381,7 @@ impl Block for Board {
             write: registers.adc_write,
         };
         let adc = call!(self.adc_reader, state, inputs);
-        // The reader cannot ask the registers in the same clock that it is told by them.
+        // The registers receive `shift` a clock later: the reader uses their outputs of this clock.
         let shift = adc.shift;
         let inputs = core_inputs(
             &registers,

@@ -70,7 +70,7 @@ fn bytes_cross_the_line_both_ways_with_a_clock_three_percent_off() {
     }
 }
 
-/// The receiver looks at the stop bit ⌊9½·D⌋ to ⌊9½·D⌋ + 1 clocks behind the start bit's edge: that
+/// The receiver samples the stop bit ⌊9½·D⌋ to ⌊9½·D⌋ + 1 clocks behind the start bit's edge: that
 /// must be within the sender's bit from 9 to 10.
 #[test]
 fn rates_may_differ_until_a_stop_bit_is_missed() {

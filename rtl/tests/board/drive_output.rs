@@ -71,7 +71,7 @@ impl Dac {
         }
     }
 
-    /// A clock in which the board is reset: a frame under way is cut short, which the converter ignores.
+    /// A clock in which the board is reset: a frame in progress is cut short, which the converter ignores.
     pub fn is_reset(&mut self, now: DacPort<i64>) {
         self.pins = now;
         self.clocks += 1;

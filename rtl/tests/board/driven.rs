@@ -180,7 +180,7 @@ fn tones(profile: &Profile) -> Vec<Vec<i32>> {
     samples_of(profile, &[Sight::Tones], 80)
 }
 
-/// Runs until so many packets more are there, and gives what the last says of the drive.
+/// Runs until `packets` more packets are there, and gives what the last reports of the drive.
 fn later(session: &mut Session, packets: usize) -> Driven {
     let count = session.packets.len() + packets;
     session.packets(count)[count - 1].status.driven.expect("a board with a drive")

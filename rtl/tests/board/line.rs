@@ -142,7 +142,7 @@ fn a_wire_unplugged_in_mid_command_costs_no_command_behind_the_next_end() {
     assert!(lost > 300);
 }
 
-/// The wire to the host is pulled out at any time and put back, mostly while a frame is under way.
+/// The wire to the host is pulled out at any time and put back, mostly in the middle of a frame.
 #[test]
 fn a_wire_unplugged_in_mid_frame_costs_no_frame_but_those_meanwhile_and_one() {
     const ROUNDS: u64 = 24;
@@ -164,7 +164,7 @@ fn a_wire_unplugged_in_mid_frame_costs_no_frame_but_those_meanwhile_and_one() {
         session.run(back - out);
         session.unplugged = None;
         let heard = session.packets.len();
-        // The frame that is under way is damaged, and may be heard as several; of three one is lost.
+        // The frame in progress is damaged, and may be heard as several; of three one is lost.
         session.run(3 * slot);
         let after = &session.packets[heard..];
         let wrong = after.iter().filter(|packet| packet.is_err()).count();

@@ -2,8 +2,8 @@
 //! The registers of an AD7606C behind its serial port, and what the part refuses.
 //!
 //! A word over SDI is 16 bits: zero, read, six bits of address, eight of data. While the part
-//! converts (ADC mode) it takes nothing but a read, which puts it into register mode; there it
-//! takes reads and writes, and puts the register that was read out during the next word. A write to
+//! converts (ADC mode) it takes nothing but a read, which puts it into register mode. There it
+//! takes reads and writes, and puts out the register of a read during the next word. A write to
 //! address 0 leaves register mode. Source: data sheet AD7606C-16 (register map); the public drivers
 //! `drivers/adc/ad7606` of Analog Devices' no-OS and of Linux.
 

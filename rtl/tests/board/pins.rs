@@ -164,7 +164,7 @@ impl Adc {
 
     fn convert(&mut self, starts: bool) {
         if self.left == 1 {
-            // The registers that are read change: nobody may be reading.
+            // The registers that are read change: no read may be in progress.
             if self.before.cs_n == 0 && self.health == Health::Well {
                 self.wrong.push("codes replaced while they are read");
             }
@@ -212,8 +212,8 @@ impl Adc {
     }
 }
 
-/// The host's end of a serial line: bytes in, bytes out, at its own pace. It looks for a start bit
-/// as soon as it has looked at a stop bit, and gives a zero byte where that was low, as POSIX
+/// The host's end of a serial line: bytes in, bytes out, at its own pace. It waits for a start bit
+/// as soon as it has sampled a stop bit, and gives a zero byte where that was low, as POSIX
 /// terminals do.
 #[derive(Clone)]
 pub struct Host {
@@ -222,7 +222,7 @@ pub struct Host {
     sending: VecDeque<bool>,
     /// Clocks since the bit that is being sent began.
     sent: f64,
-    /// Clocks until the next bit is looked at, and the bits so far.
+    /// Clocks until the next bit is sampled, and the bits so far.
     hearing: Option<(f64, Vec<bool>)>,
     pub heard: Vec<u8>,
 }
@@ -232,7 +232,7 @@ impl Host {
         Host::with_bit(divisor as f64)
     }
 
-    /// A host whose bits take so many clocks of the board.
+    /// A host whose bits take `bit` clocks of the board.
     pub fn with_bit(bit: f64) -> Self {
         Host { bit, sending: VecDeque::new(), sent: 0.0, hearing: None, heard: Vec::new() }
     }

@@ -21,8 +21,8 @@ use hapticore_rtl::board::uart::transmitter::Transmitter;
 use hapticore_rtl::board::{Board, Parameters};
 use hapticore_rtl::netlist;
 
-/// Clocks after which a register that still grows may be anything at once: a counter of many bits
-/// would take as many clocks.
+/// Clocks after which a register that still grows is widened to its whole format: a counter of many
+/// bits would take as many clocks.
 const WIDENED: usize = 20_000;
 
 /// Clocks the block with any inputs, from reset, until its registers can be nothing new.

@@ -107,7 +107,7 @@ impl Session {
         }
     }
 
-    /// Runs until so many packets are there.
+    /// Runs until `count` packets are there.
     pub fn packets(&mut self, count: usize) -> Vec<Packet> {
         let mut left = (count as u64 + 4) * (self.profile.slot_clocks() + 60_000);
         while self.packets.len() < count {

@@ -130,7 +130,7 @@ impl Design for Pair {
 
 /// Clocks for which numbers are held: a divider asks for them until its quotient is there.
 const HELD: u64 = 32;
-/// At which of them a division starts, perhaps over one under way.
+/// At which of them a division starts, perhaps over one in progress.
 const STARTS: [u64; 3] = [3, 7, 12];
 
 /// Resets, then starts now and then with ever other numbers.

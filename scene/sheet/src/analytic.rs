@@ -5,8 +5,8 @@
 //! φ(r) = R_s·[N(r, p) − Σ w_j·N(r, t_j)] + c. Every terminal is grounded through R_i, φ(t_i) =
 //! R_i·w_i, and Σ w = 1:
 //!
-//!   ⎡ R_s·N(t_i, t_j) + R_i·δ_ij   −1 ⎤ ⎡ w ⎤   ⎡ R_s·N(t_i, p) ⎤
-//!   ⎣ 1 … 1                         0 ⎦ ⎣ c ⎦ = ⎣ 1             ⎦,    R_p = R_s·N(p, p) + c − Σ w_j·R_s·N(t_j, p)
+//!   ⎡ R_s·N(t_i,t_j) + R_i·δ_ij   −1 ⎤ ⎡ w ⎤   ⎡ R_s·N(t_i,p) ⎤
+//!   ⎣ 1 … 1                        0 ⎦ ⎣ c ⎦ = ⎣ 1            ⎦,    R_p = R_s·N(p,p) + c − Σ w_j·R_s·N(t_j,p)
 //!
 //! An open terminal's row says w_i = 0. The matrix is inverted once. A disc of even current has the
 //! split of its centre; only N(p, p) sees its size, through R_eff = R·e^(−1/4).

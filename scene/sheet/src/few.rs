@@ -20,7 +20,7 @@ impl<T: Copy + Default, const MOST: usize> Few<T, MOST> {
         few
     }
 
-    /// So many values, which `fill` puts in front of as many as there may be.
+    /// `count` values, which `fill` puts in front of as many as there may be.
     #[inline]
     pub fn of(count: usize, fill: impl FnOnce(&mut [T; MOST])) -> Self {
         let mut few = Few { values: [T::default(); MOST], count };

@@ -7,7 +7,7 @@
 //! | --- | --- |
 //! | [`uniform`] | the sheet: its size, its film, its terminals |
 //! | [`analytic`] | the exact split of a current, and the potential between two places |
-//! | [`coupling`] | the currents of several pads at once |
+//! | [`coupling`] | the currents of several pads together |
 //! | [`model`] | what a host takes crosstalk out by |
 //! | [`ratios`] | the ratios of the terminals' currents that a position is found from |
 //! | [`neumann`] | Neumann function of the rectangle |

@@ -8,7 +8,7 @@ use crate::uniform::UniformSheet;
 use num_complex::Complex64;
 use std::f64::consts::TAU;
 
-/// A pad as a frame tells of it.
+/// A pad as a frame describes it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PadEstimate {
     /// Millimetres right of the sheet's centre.

@@ -2,8 +2,8 @@
 //! Neumann function of an insulated rectangle: the potential at one place for a unit current fed in
 //! at another and taken out evenly, per ohm per square.
 //!
-//!   N = g₀/b − (1/4π) Σ_m Σ_X Σ_± ln(1 − 2e^(−πX/b)·cos θ± + e^(−2πX/b)),   X ∈ {|Δ|, 2a−|Δ|, s, 2a−s} + 2ma
-//!   Δ = x−x′, s = x+x′, θ± = π(y±y′)/b, g₀ = (x²+x′²)/2a − max(x, x′) + a/3
+//!   N = g₀/b − (1/4π) Σ_m Σ_X Σ_± ln(1 − 2e^(−πX/b)·cos θ± + e^(−2πX/b)),   X ∈ {|Δ|,2a−|Δ|,s,2a−s} + 2ma
+//!   Δ = x−x′, s = x+x′, θ± = π(y±y′)/b, g₀ = (x²+x′²)/2a − max(x,x′) + a/3
 //!
 //! Each logarithm's argument is (1−e)² + 4e·sin²(θ/2), which does not cancel near the source; the
 //! product of all is taken before one logarithm. What is cut off after M images is 3.8e-6, 8e-11,
@@ -44,7 +44,7 @@ impl Neumann {
         Neumann::new([a, b], images as i32)
     }
 
-    /// With so many images.
+    /// With `images` images.
     pub fn new([a, b]: [f64; 2], images: i32) -> Self {
         Neumann { a, b, images, next: (-2.0 * PI * a / b).exp() }
     }
@@ -88,7 +88,7 @@ impl Neumann {
         for _ in 0..self.images {
             let decay = decay.map(|e| e * image);
             let (constant, by) = (decay.map(|e| (1.0 - e).powi(2)), decay.map(|e| 4.0 * e));
-            // All are there before one is asked whether it is tiny: two are computed at once.
+            // All are computed before one is tested for being tiny: two are computed side by side.
             let [of_sum, of_difference] = angles.map(|angle| {
                 let factors: [f64; 4] = std::array::from_fn(|n| constant[n] + by[n] * angle);
                 factors.map(|factor| if factor < 1e-24 { coincident } else { factor })

@@ -115,7 +115,7 @@ impl Bench<'_> {
 /// A case over mechanics that are known, slot by slot.
 pub(super) struct Run<'a> {
     pub plant: Plant,
-    /// The core is given samples; else phasors, so that codes do not hide what the plant does.
+    /// The core receives samples; else phasors, so that codes do not hide what the plant does.
     pub sampled: bool,
     /// What a slot costs.
     pub cost_ns: f64,

@@ -2,7 +2,7 @@
 //! An ideal core: it knows the device exactly as a calibration finds it, and rounds nothing.
 //!
 //! The place is where an isolated pad has the ratios r_x and r_y that were measured, found by
-//! Newton's steps on a table of the forward map; R_p is the table's there;
+//! Newton's steps on a table of the forward map. R_p is the table's value there;
 //! C = |I|/(ω·√(V² − |I|²·R_p²)) and F = k·(C·V_h)² (docs/physics.md §2, eq. 8).
 
 use num_complex::Complex64;
@@ -26,7 +26,7 @@ const DEAR_NS: f64 = 5e3;
 const MOST_STEPS: usize = 12;
 const NEAR_MM: f64 = 1e-7;
 
-/// What a core is given of a slot: amplitudes and a mean square, as fractions of full scale.
+/// What a core receives of a slot: amplitudes and a mean square, as fractions of full scale.
 pub(super) struct Signals {
     terminals: PerTerminal<Complex64>,
     sense: Complex64,

@@ -2,15 +2,16 @@
 //! How exact the levels are on a scene, and the cheapest ones within an error budget.
 //!
 //! The error of a level is the largest difference from a finer one, all other effects alike, over
-//! the slots of the case and over all that a user reads of them: [`norm`] says what that is and of
-//! what it is a percent. Levels are compared only where they approximate the same thing: `[gap]`'s
-//! `static` or a law of friction is a choice of question. Noise and jitter are left out.
+//! the slots of the case and over every quantity that a user reads of them. [`norm`] lists these
+//! quantities and what each is a percent of. Levels are compared only where they approximate the
+//! same thing: `[gap]`'s `static` or a law of friction is a choice of question. Noise and jitter
+//! are left out.
 //!
 //! `error_budget_percent` is what all levels together that the scene leaves open may differ from
 //! their finest ones. Effect by effect, those with the fewest levels first, the cheapest level is
 //! taken that is within an even share of what is left of it, all others at their finest. Then all
-//! of the chosen levels are compared with the finest at once; where that is over the budget, which
-//! errors that amplify each other can do, the shares are halved. Source: docs/physics.md §8.
+//! of the chosen levels together are compared with the finest. Where that exceeds the budget, as
+//! errors that amplify each other can, the shares are halved. Source: docs/physics.md §8.
 
 mod bench;
 mod compared;

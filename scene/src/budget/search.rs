@@ -42,8 +42,8 @@ pub(super) fn cheapest(
 }
 
 /// The cheapest levels that are found within the budget by a comparison with a reference. Where
-/// that only stands in for the finest levels, errors against these are at most twice as large: of a
-/// method of first order, in steps that halve, the next level leaves half of the error. Where no
+/// that only stands in for the finest levels, errors against these are at most twice as large. With
+/// a method of first order, in steps that halve, the next level leaves half of the error. Where no
 /// coarser level than the stand-in will do, it is taken itself if its own error leaves room.
 fn below(
     bench: &Bench,

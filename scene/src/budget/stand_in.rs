@@ -2,9 +2,9 @@
 //! Levels that stand in for the finest one, where that takes long to build: meshes, coarsest first.
 //!
 //! A stand-in's own error follows from how the meshes before it have converged. The next coarser
-//! one is off it by d, the one before was off its next by d': where each step leaves q = d/d' of
-//! the error, the steps that are still to come sum up to d·(q + q² + …) = d·q/(1 − q). Second order
-//! of convergence has q = 1/4; no less than 1/2, first order, is relied on.
+//! one is off it by d, the one before was off its next by d'. Where each step leaves q = d/d' of
+//! the error, the remaining steps sum up to d·(q + q² + …) = d·q/(1 − q). Second order of
+//! convergence has q = 1/4; no less than 1/2, first order, is relied on.
 
 use super::bench::Bench;
 use super::compared::{Chosen, Compared, Reference, at_level};
@@ -87,7 +87,7 @@ mod tests {
             let step = |mesh: i32| error(mesh - 1) - error(mesh);
             let bound = to_come(step(3), Some(step(2)));
             assert!(bound >= 0.999 * error(3) && bound <= 3.1 * error(3), "{left}: {bound}");
-            // Of the step before only some was looked at.
+            // Of the step before only a part was evaluated.
             assert!(to_come(step(3), Some(0.9 * step(2))) >= 0.999 * bound, "{left}");
         }
         assert_eq!(to_come(2.0, Some(2.0)), f64::INFINITY);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The worst slot of two runs.
 //!
-//! All slots are looked at where that is cheap beside what a core does in them. Where it is not (a
-//! series at every place, the samples of a window), some are: those in which a pad is nearest to a
-//! terminal or to an edge, or has the most or the least of a quantity, and others spread over the
-//! case without a period that a sweep or the pads' turns could share. Around the worst of them
-//! neighbours are searched, by steps that halve.
+//! All slots are evaluated where that is cheap compared with what a core does in them. Where it is
+//! not (a series at every place, the samples of a window), some are. These are the slots in which a
+//! pad is nearest to a terminal or to an edge, or has the most or the least of a quantity. Others
+//! are spread over the case without a period that a sweep or the pads' turns could share. Around
+//! the worst of them neighbours are searched, by steps that halve.
 
 use std::collections::HashMap;
 
@@ -15,13 +15,13 @@ use super::norm::Quantities;
 const SLOT_NS: f64 = 10e3;
 const ALL_NS: f64 = 20e6;
 
-/// The fewest slots that are looked at.
+/// The fewest slots that are evaluated.
 const FEWEST: usize = 64;
 
 /// How many of the worst slots are searched around.
 const AROUND: usize = 4;
 
-/// How many slots may be looked at that cost so much each.
+/// How many slots may be evaluated where each costs `look_ns`.
 pub(super) fn affordable(slots: usize, look_ns: f64) -> usize {
     let total_ns = (slots as f64 * SLOT_NS).max(ALL_NS);
     slots.min((total_ns / look_ns) as usize).max(FEWEST)
@@ -41,7 +41,7 @@ pub(super) fn extremes(slots: &[Quantities], terminals_mm: &[[f64; 2]]) -> Vec<u
     quantities.chain(terminals).flatten().collect()
 }
 
-/// A search over slots, of which at most so many are looked at before it is refined.
+/// A search over slots, of which it evaluates at most `looks` before it is refined.
 pub(super) struct Search<'a> {
     pub slots: usize,
     pub looks: usize,

@@ -3,10 +3,10 @@
 //!
 //!   I_i = w_i·jωC/(1 + jωC·R_p)·V      (eqs. 1 and 4; w_i is the share of terminal i)
 //!
-//! The sensing voltage is V·cos ωt with t = 0 at each slot's first sample; the haptic voltage is
+//! The sensing voltage is V·cos ωt with t = 0 at each slot's first sample. The haptic voltage is
 //! √2·V_h·sin ω_h·t with t since the start of the case, or V_h with the polarity of its `wave`.
 //!
-//! | level | what the `float` and `fixed` cores are given | error |
+//! | level | what the `float` and `fixed` cores receive | error |
 //! | --- | --- | --- |
 //! | `phasor` | the amplitudes themselves, one set per slot | exact in steady state |
 //! | `samples` | ADC samples, as the `clock` core always is | sampling effects only |

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What an effect can act on: a pad, all pads at once, or what the ADC sees.
+//! What an effect can act on: a pad, all pads together, or what the ADC sees.
 
 use std::ops::Range;
 

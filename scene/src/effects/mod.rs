@@ -2,11 +2,12 @@
 //! Effects: what the plant does beyond the ideal, each in a module of its own and switched on by
 //! its table.
 //!
-//! Once per slot the effects on the pad run in the order of [`EFFECTS`], each changing the [`Pad`];
-//! then those that see all pads at once; then the effects on the channels turn it into phasors or
-//! samples. States of effects are kept at times of their own, whichever slots are asked for: see
-//! `tick`. An effect whose table (or key, for the sensor chain) is absent yields no [`Spec`], so
-//! the plant holds nothing of it. To add an effect: one file with a `read`, one line in the list.
+//! Once per slot the effects on the pad run in the order of [`EFFECTS`], each changing the [`Pad`].
+//! Then the effects that see all pads together run; then the effects on the channels turn it into
+//! phasors or samples. States of effects are kept at times of their own, whichever slots are asked
+//! for: see `tick`. An effect whose table (or key, for the sensor chain) is absent yields no
+//! [`Spec`], so the plant holds nothing of it. To add an effect: one file with a `read`, one line
+//! in the list.
 
 pub(crate) mod carrier;
 mod charge;
@@ -87,7 +88,7 @@ pub(crate) const FILM_AND_CURRENTS: [&str; 7] = [
     carrier::CARRIER,
 ];
 
-/// Those that see all pads at once.
+/// Those that see all pads together.
 pub(crate) const JOINING: [&str; 2] = ["coupling", "sensor.others"];
 
 /// Those that differ from one realisation to the next: an error of a level leaves them out.

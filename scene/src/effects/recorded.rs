@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What the mechanics of a case do to its pads, recorded in one run and played back in another that
-//! differs only in what comes after: a gap that moves is integrated once, however many levels of
+//! differs only in what comes after. A gap that moves is integrated once, however many levels of
 //! the sheet are compared over it.
 
 use std::sync::{Arc, Mutex};
@@ -121,6 +121,6 @@ impl PadEffect for Player {
         pad.over_edge = state.over_edge;
     }
 
-    /// A calibration is of a pad at rest where it is asked for.
+    /// A calibration is of a resting pad where it is asked for.
     fn settle(&mut self, _: &mut Pad) {}
 }

@@ -64,7 +64,7 @@ impl Release {
 }
 
 impl PadEffect for Release {
-    /// A pad at rest: what has fallen has been let go.
+    /// A resting pad: friction has followed every fall of the attraction.
     fn act(&mut self, _: &mut Pad) {}
 
     fn due(&self, pad: &Pad, drive: &PadDrive) -> Option<Tick> {

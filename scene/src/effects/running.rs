@@ -57,7 +57,7 @@ impl Effects {
         self.meter = Meter::On { costs: specs.iter().map(idle).collect(), since: Instant::now() };
     }
 
-    /// What each effect has cost; nothing where nobody asked for it to be metered.
+    /// What each effect has cost; nothing where costs are not metered.
     pub fn costs(&self) -> Vec<EffectCost> {
         if let Meter::On { costs, .. } = &self.meter { costs.clone() } else { Vec::new() }
     }
@@ -71,7 +71,7 @@ impl Effects {
         last == Some(true)
     }
 
-    /// Whether an effect looks at all pads at once.
+    /// Whether an effect reads all pads together.
     pub fn joins_pads(&self) -> bool {
         self.list.iter().any(|effect| matches!(effect, Effect::Pads(_)))
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! An effect as a scene asks for it: its fidelity levels and the one that is used.
+//! An effect as a scene asks for it: its fidelity levels and the level in use.
 
 use std::sync::Arc;
 

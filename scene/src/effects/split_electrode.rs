@@ -14,7 +14,7 @@
 //! | `strips` | electrodes | senses |
 //! | --- | --- | --- |
 //! | 2 | halves, whose centres lie a quarter of the pad's diameter off its own | both |
-//! | 4 | strips of a disc: the outer two have `outer_share_percent` of its area | the outer two, at `sensing_v_rms` at most where that is given |
+//! | 4 | strips of a disc: the outer two have `outer_share_percent` of its area | the outer two, at `sensing_v_rms` at most where that is set |
 //! | `quadrants = true` in place of strips | quadrants of a disc: top left, bottom left, bottom right, top right; the hand's push tilts the pad along y, too | all |
 //!
 //! With `senses = "each"` a pad has a slot for each of its parts: see `part`. The truth's direction is Δx over half the sheet's width, as the ratios of eq. 10 are. Source:
@@ -131,8 +131,8 @@ fn quadrants(radius_mm: f64, mismatch: f64) -> Vec<Strip> {
     [[-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0], [1.0, 1.0]].map(quadrant).to_vec()
 }
 
-/// Area share and centre of the outer and of the inner strip on one side of a disc, whose outer
-/// strip is a segment of this share: (acos t − t√(1−t²))/π for one that begins at t radii.
+/// Area share and centre of the outer and of the inner strip on one side of a disc. The outer strip
+/// is a segment of this share: (acos t − t√(1−t²))/π for one that begins at t radii.
 fn disc_strips(outer: f64, radius_mm: f64) -> [[f64; 2]; 2] {
     use std::f64::consts::PI;
     let segment = |t: f64| (t.acos() - t * (1.0 - t * t).sqrt()) / PI;

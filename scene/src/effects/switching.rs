@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `[switching]`: the pad that a slot serves gets the sensing voltage at the slot's first sample,
-//! uncharged, so that its current takes some τ = R_p·C to settle: 0.05 to 0.4 µs, 0.01 % after 9.2
-//! τ.
+//! uncharged. So its current takes some τ = R_p·C to settle: τ is 0.05 to 0.4 µs, and 0.01 % is
+//! left after 9.2 τ.
 //!
 //!   i(t) = Re{Y·V·[e^(jωt) + e^(−t/τ)/(jωτ)]},   Y = jωC/(1 + jωτ)
 //!
 //! | level | what | error of C in steady state |
 //! | --- | --- | --- |
-//! | `rc-1`, `rc-4`, `rc-8`, `rc-16`, `rc-64` | the circuit by the trapezoid rule, so many steps per sample | tan(ωh/2)/(ωh/2) − 1: 3.4, 0.21, 0.051, 0.013, 0.0008 % at 1 MS/s |
+//! | `rc-1`, `rc-4`, `rc-8`, `rc-16`, `rc-64` | the circuit by the trapezoid rule, this many steps per sample | tan(ωh/2)/(ωh/2) − 1: 3.4, 0.21, 0.051, 0.013, 0.0008 % at 1 MS/s |
 //! | `euler-64` | the same explicitly; refused where a step is longer than 2τ, since it would diverge | first order in the step |
 //! | `settling` | the closed form | none, at any rate |
 //!

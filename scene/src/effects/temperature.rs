@@ -18,9 +18,9 @@
 //!
 //! Split, R_p, shunt and coupling follow, and so does the truth; calibrations and what the host
 //! knows are of the film without the rise. Resistances in series with the terminals stay as they
-//! are: without any an even rise moves no position, with them it does, by 3.9 mm rms for 20 K of
-//! 400 ppm/K and 500 Ω at each terminal, 5.2 mm for 1670 Ω. A gradient of 20 K from left to right
-//! moves positions by 4.0 mm rms (`minimal-sheet`).
+//! are. Without any an even rise moves no position. With 500 Ω at each terminal, 20 K of 400 ppm/K
+//! move positions by 3.9 mm rms, with 1670 Ω by 5.2 mm. A gradient of 20 K from left to right moves
+//! positions by 4.0 mm rms (`minimal-sheet`).
 //!
 //! α is a property of the film that somebody has to measure, so it has no default: films differ
 //! even in its sign. ITO that was sputtered with a dc magnetron has +123 to +868 ppm/K between 150

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The times at which an effect keeps its state: multiples of its step since the start of the case,
-//! and the events of what drives it. They do not depend on the times at which the pad is looked at:
+//! and the events of what drives it. They do not depend on the times at which the pad is evaluated:
 //! a state in between is reached by a step of its own, which is not kept.
 
 /// The share of a step below which two times are one.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Typed access to a table. Every key asked for becomes a known key; when all is read, a key nobody
-//! asked for is an error.
+//! Typed access to a table. Every key asked for becomes a known key; when all is read, a key that
+//! was not asked for is an error.
 
 use super::limits::Limits;
 use super::tree::{Table, Value};
@@ -105,8 +105,8 @@ impl Table {
         }
     }
 
-    /// The first key, by line, that nobody asked for is an error; so in every table below that
-    /// somebody read.
+    /// The first key, by line, that was not asked for is an error; so in every table below that was
+    /// read.
     pub fn refuse_unknown(&self) -> Result<()> {
         match self.unknown().into_iter().min_by_key(|error| match error.place {
             Place::Override => 0,

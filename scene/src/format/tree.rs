@@ -128,7 +128,7 @@ impl Table {
         self.entries.remove(key);
     }
 
-    /// The value at `key`, read by nobody.
+    /// The value at `key`, which does not count as read.
     pub fn find(&mut self, key: &str) -> Option<&mut Node> {
         self.entries.get_mut(key).map(|(node, _)| node)
     }

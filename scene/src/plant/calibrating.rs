@@ -14,8 +14,8 @@ use crate::truth::{ForcePoint, MapPoint, PadMeasurement};
 const LEAST: usize = 2000;
 
 impl Plant {
-    /// A raster of places with what the nominal device reads there: no noise, no mismatch, one pad
-    /// alone and at rest.
+    /// A raster of places with what the nominal device reads there: no noise, no mismatch, one
+    /// resting pad alone.
     ///
     /// ```
     /// # use hapticore_scene::{Plant, Scene, Timing};
@@ -58,7 +58,7 @@ impl Plant {
         })
     }
 
-    /// What the terminals of the nominal device measure of an isolated pad at rest at each of these
+    /// What the terminals of the nominal device measure of an isolated resting pad at each of these
     /// positions, mm.
     pub fn measurements(&self, places_mm: &[[f64; 2]]) -> Vec<PadMeasurement> {
         let still = places_mm.iter().map(|place| resting(*place, 0.0, 0.0, &self.device));
@@ -102,8 +102,9 @@ impl Plant {
         self.settle(still).map(point).collect()
     }
 
-    /// The least capacitance that any pad, or any part of a split one, has while it touches the sheet without a haptic voltage,
-    /// pF: of `[gap]` at rest under a load, g; of a scene without one also the largest that each pad is ever set to.
+    /// The least capacitance that any pad, or any part of a split one, has while it touches the sheet without a haptic
+    /// voltage, pF. With `[gap]` it is that of a resting pad under a load, g. Of a scene without one the largest
+    /// capacitance that each pad is ever set to counts, too.
     ///
     /// ```
     /// # use hapticore_scene::{Plant, Scene, Timing};
@@ -131,7 +132,7 @@ impl Plant {
             .fold(f64::INFINITY, f64::min)
     }
 
-    /// What the parts on the left and on the right of a split pad read at rest under a load, pF: the
+    /// What the parts on the left and on the right of a resting split pad read under a load, pF: the
     /// direction that a device has when it leaves the factory. None of a pad that is whole.
     pub fn parts_at_rest_pf(&self, load_g: f64) -> Option<[f64; 2]> {
         let still = [resting([0.0, 0.0], load_g, 0.0, &self.device)];

@@ -159,7 +159,7 @@ fn a_pad_on_its_way_down_stays_closed_by_the_level_that_remembers() {
     }
 }
 
-/// Eq. 10 in mm of a pad under 100 g that has come to rest.
+/// Eq. 10 in mm of a pad under 100 g that has settled.
 fn measurement_mm(device: &str, volt: f64, eccentricity_mm: f64, mismatch_percent: f64) -> f64 {
     let text = format!(
         "dwell_slots = 1\n[[pad]]\nposition_mm = [0, 0]\nload_g = 100\nhaptic_v_rms = {volt}\n\
@@ -173,8 +173,8 @@ const PROTOTYPE: &str = "[device]\ngravity_m_s2 = 10\n[gap]\n\
                          rest_um = [13, 14.5, 16, 17.5, 19.106, 19.585, 26, 34]\n";
 
 /// docs/physics.md §4: slopes over ± 5 mm and ± 2 mm at 0, 300 and 400 V, the prototype's with its
-/// gravity and heights, and the defaults'; an offset of −0.11 mm for 3 % mismatch. Between 285 and
-/// 350 V patches pull in as the push moves, so that the slope depends on the span.
+/// gravity and heights, and the defaults'. A mismatch of 3 % gives an offset of −0.11 mm. Between
+/// 285 and 350 V patches pull in as the push moves, so that the slope depends on the span.
 #[test]
 fn eq_10_reads_part_of_the_eccentricity_and_less_of_it_pulled_in() {
     const VOLTS: [f64; 3] = [0.0, 300.0, 400.0];

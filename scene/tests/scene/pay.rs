@@ -91,9 +91,9 @@ fn held(parts: &[&Part]) -> i64 {
 }
 
 /// What an effect holds is gone with it: as much among all others as on the least scene that has
-/// it, so that none keeps anything for another, and none anything for itself where it is not named.
-/// (Shunt and coupling are looked at one by one: pads are coupled through what the shunt makes of
-/// the sheet; and so are film and rubber, which a scene's text has in one table.)
+/// it. So none keeps anything for another, and none anything for itself where it is not named.
+/// (Shunt and coupling are measured one without the other: pads are coupled through what the shunt
+/// makes of the sheet. So are film and rubber, which a scene's text has in one table.)
 #[test]
 fn an_effect_that_a_scene_leaves_out_holds_no_memory() {
     held(&parts(|_| true)); // whatever a library keeps for ever is there now

@@ -42,7 +42,7 @@ fn window(plant: &mut Plant, slot: usize) -> Vec<[f64; CHANNELS]> {
     samples.as_chunks().0.to_vec()
 }
 
-/// Amplitude at so many turns per sample, over a whole number of periods, rectangular.
+/// Amplitude at `turns` turns per sample, over a whole number of periods, rectangular.
 fn lock_in(rows: &[[f64; CHANNELS]], channel: usize, turns: f64) -> Complex {
     let turned = rows
         .iter()

@@ -173,8 +173,9 @@ fn noises_are_independent_of_each_other() {
     }
 }
 
-/// docs/physics.md §7: of full scale, 0.25 of the pad's own haptic current, 0.87 of the others', and
-/// 0.25 of the carrier on one terminal: too much for the ADC, where the pad alone is well within.
+/// docs/physics.md §7, in full scales on one terminal: 0.25 of the pad's own haptic current, 0.87 of
+/// the others', and 0.25 of the carrier. That is too much for the ADC, where the pad alone is well
+/// within.
 #[test]
 fn haptic_currents_of_four_pads_in_a_corner_clip() {
     let pads: String = [[-415, 235], [-375, 235], [-415, 195], [-375, 195]]

@@ -63,8 +63,8 @@ fn strips_of_a_disc_share_its_capacitance_by_area() {
     assert_eq!(halves.electrodes_pf[2..], [0.0; 2]);
 }
 
-/// Loads per area are W·(1 + e·x/ρ²): with the places of the strips, by sums over the disc in this
-/// test, they balance the moment of the push; a small e moves each by the slope of C times that.
+/// Loads per area are W·(1 + e·x/ρ²). With the places of the strips, by sums over the disc in this
+/// test, they balance the moment of the push. A small e moves each by the slope of C times that.
 #[test]
 fn strips_balance_the_moment_of_the_push() {
     let strips = |eccentricity_mm: f64, load_g: f64| {

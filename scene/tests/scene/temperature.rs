@@ -196,7 +196,7 @@ fn what_cannot_be_is_refused_with_its_key() {
     );
 }
 
-/// Relaxed rubber of so many Pa/m under 50 g at 300 V.
+/// Relaxed rubber under 50 g at 300 V.
 const GAP: &str = "[[pad]]\nposition_mm = [0, 0]\nload_g = 50\nhaptic_v_rms = 300\n[friction]\nrung = \"coulomb\"\n[gap]\n";
 
 /// docs/physics.md §3: κ − 5 % is + 0.064 N and + 55 pF at 50 g and 300 V.

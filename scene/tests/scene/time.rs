@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A pad's mechanics live in all of time: what happens between its slots is as an independent
-//! integration has it, whoever is served and whoever is looked at.
+//! A pad's mechanics go on at all times: what happens between its slots agrees with an independent
+//! integration, whichever pad is selected or evaluated.
 
 use crate::common::ode::{Ode, REST_UM};
 use crate::common::standard_timing as timing;
@@ -24,7 +24,7 @@ fn gap(more: &str) -> String {
     format!("[device]\ngravity_m_s2 = 9.80665\n[gap]\nrest_um = {REST_UM:?}\n{more}")
 }
 
-/// A pad under 50 g in the middle of the sheet, and so many others at rest.
+/// A pad under 50 g in the middle of the sheet, and `others` motionless ones.
 fn pads(haptic_v_rms: &str, others: usize) -> String {
     let mut text =
         format!("[[pad]]\nposition_mm = [0, 0]\nload_g = 50\nhaptic_v_rms = {haptic_v_rms}\n");
@@ -38,8 +38,8 @@ fn square(volt: f64, [on_s, off_s]: [f64; 2]) -> String {
     format!("{{ timeline = [[{on_s}, 0], [{on_s}, {volt}], [{off_s}, {volt}], [{off_s}, 0]] }}")
 }
 
-/// Capacitances of pad 0 by the ODE at these times, in pF; at rest until `from_s`, behind a supply
-/// that lets so much of the voltage through.
+/// Capacitances of pad 0 by the ODE at these times, in pF; in equilibrium until `from_s`, behind a
+/// supply that lets `share` of the voltage through.
 fn exact_behind_pf(
     share: impl Fn(f64) -> f64,
     volt: f64,

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Vectors of the printed force loop, for `rtl/verilog/cocotb/loop_bench.v` and `test_loop.py`.
 //!
-//! Split pads on a sheet, each with a carrier of 21 periods per window. The drives rise to a target within the slew, a slot is
-//! abandoned with `clear` a clock after its strobe, the drives begin anew, are cleared, reach their target at once, and are switched off.
-//! Then `clear` comes a clock after a strobe, beside one, and beside the place of a frame, before a pad whose only force is its wall's.
+//! Split pads on a sheet, each with a carrier of 21 periods per window. The drives rise to a target within the slew,
+//! and a slot is abandoned with `clear` a clock after its strobe. The drives begin anew, are cleared, reach their
+//! target in one step, and are switched off. Then `clear` comes a clock after a strobe, beside one, and beside the
+//! place of a frame, before a pad whose only force is its wall's.
 //!
 //! | file | holds |
 //! | --- | --- |
@@ -57,7 +58,7 @@ const FORCE: ForceTable = ForceTable {
 /// Largest error of an amplitude in the pads' parts, full scale: their places differ.
 const SPREAD: f64 = 0.02;
 
-/// A loop at work, what it is given, and what it says.
+/// A loop at work, its inputs, and the text of its outputs.
 struct Bench {
     block: ForceLoop,
     state: State<ForceLoop, i64>,

@@ -96,7 +96,7 @@ impl Noise {
     }
 }
 
-/// A core at work, what it is given, and what it says.
+/// A core at work, its inputs, and the text of its outputs.
 struct Bench {
     core: Core,
     state: State<Core, i64>,

@@ -231,7 +231,7 @@ fn sdi_rests_while_the_adc_is_read() {
     proves("board", board, 4);
 }
 
-/// Each change of a printed text, and what the checker says within so many clocks.
+/// Holds that the checker notices each change of a printed text, within the clocks of `mode`.
 fn broken(
     name: &'static str,
     (verilog, known): (String, Known),

@@ -60,7 +60,7 @@ fn with_claims(netlists: &[Netlist]) -> Vec<System<'_>> {
     found.into_values().collect()
 }
 
-/// Proves all that a block claims, and says how long it took.
+/// Proves everything that a block claims, and says how long it took.
 fn holds(tools: &Tools, solver: Solver, system: &System, of: &str) -> BTreeSet<&'static str> {
     let start = Instant::now();
     let proved = prove(tools, solver, system)
@@ -145,7 +145,7 @@ fn another_solver_agrees() {
     }
 }
 
-/// What a solver says of the first claim with so many bits less, from any state after so many clocks.
+/// A solver's answer on the first claim with `less` fewer bits, from any state after `clocks` clocks.
 fn narrowed(tools: &Tools, system: &System, less: u8, clocks: usize) -> Answer {
     let Some((_, Property::Claim(wire, _))) = system.claims().first().copied() else {
         panic!("{} has a claim", system.name())
@@ -222,8 +222,8 @@ fn a_division_is_not_proved_without_its_invariants_or_its_caller() {
     }
 }
 
-/// Whether the relation that solvers are given is the model's: so many clocks from reset, each given
-/// what a function says of the clock and the input.
+/// Whether the relation that solvers use is the model's: `clocks` clocks from reset, each with the inputs of a function
+/// of the clock and the input.
 fn follows<B: Block>(
     tools: &Tools,
     block: &B,

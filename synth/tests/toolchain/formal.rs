@@ -77,7 +77,7 @@ fn holds(tools: &Tools, module: &Module, parameters: &Parameters, small: bool) {
     assert_eq!(found.unwrap(), Verdict::Holds, "{} with {parameters:?}", module.name);
 }
 
-/// Every changed operator breaks the claim within so many clocks after reset, and without a change none does.
+/// Every changed operator breaks the claim within `clocks` clocks after reset, and without a change none does.
 fn breaks(tools: &Tools, module: &Module, parameters: &Parameters, clocks: u64) {
     let mutants = mutants(module);
     assert!(mutants.len() > 3, "there are operators to change");

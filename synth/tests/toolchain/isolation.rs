@@ -34,7 +34,7 @@ fn place(ports: &[Named], name: &str) -> usize {
 /// What is found of a pad's frames.
 #[derive(Debug, PartialEq, Eq)]
 enum Found {
-    /// So many words, all its own.
+    /// The number of words, all its own.
     Own(usize),
     /// A word or flag that another pad may reach: in which round and field.
     Reached(u64, String),

@@ -40,7 +40,7 @@ fn written(device: &DeviceCalibration) -> String {
     device.text()
 }
 
-/// A core is given it, or it is refused.
+/// A core's words represent it, or it is refused.
 fn check_words(device: &DeviceCalibration) {
     let Ok(profile) = device.profile(&PROFILE) else { return };
     let Ok(calibration) = device.for_profile(&profile) else { return };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Captures: bytes in, codes of an ADC out.
 //!
-//! The first byte says what is told of the file beside it ([`Described`]).
+//! The first byte selects what the options say of the file ([`Described`]).
 
 use std::io::Cursor;
 

@@ -6,7 +6,7 @@
 //! | --- | --- | --- |
 //! | `profile` | TOML | what is accepted is read again to the same profile |
 //! | `scene` | TOML | each case's document is read again to itself; its plant gives a slot |
-//! | `calibration` | TOML | what is accepted is read again to the same calibration; a core is given it or refuses it |
+//! | `calibration` | TOML | what is accepted is read again to the same calibration; a core's words represent it or it is refused |
 //! | `csv`, `wav` | options, then a capture | codes are the ADC's; they are written and read again to the same |
 //! | `sigmf` | options, meta data, a zero, samples | codes are the ADC's |
 //! | `tuning` | TOML | what is accepted is read again to the same tuning; words of its curve are its numbers |
@@ -89,8 +89,8 @@ enum Planted {
     /// Rows for columns in a calibration that is written again: a raster that is taller than wide, of a device with a
     /// force table and many pads.
     Calibration,
-    /// The most negative code of a terminal, in a row of another pad than the first in which the sensing voltage is
-    /// at its largest code, comes out positive in a capture that is written again.
+    /// The most negative code of a terminal comes out positive in a capture that is written again. This happens in
+    /// a row of another pad than the first in which the sensing voltage is at its largest code.
     Csv,
     /// A sequence number that begins again in a packet of a later pad that is sent again after the ADC was late.
     Packets,
@@ -99,7 +99,7 @@ enum Planted {
     Core,
 }
 
-/// Whether all conditions of a planted bug hold. They are looked at one by one, as a program's statements would: in one
+/// Whether all conditions of a planted bug hold. They are tested one by one, as a program's statements would: in one
 /// expression the compiler makes one branch of them, and a fuzzer that counts branches sees nothing come nearer.
 fn all_hold(conditions: &[bool]) -> bool {
     conditions.iter().take_while(|holds| std::hint::black_box(**holds)).count() == conditions.len()

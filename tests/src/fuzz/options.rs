@@ -53,7 +53,7 @@ fn simulate(args: &SimulateArgs) -> Result<()> {
     Ok(())
 }
 
-/// What is told of a capture whose columns have no names, and one row of it.
+/// What the options say of a capture whose columns have no names, and its first row.
 fn replay(args: &ReplayArgs) -> Result<()> {
     const ADC: Adc = Adc { terminals: 3, format: Format { signed: true, width: 18, frac: 17 } };
     const ROWS: &str = "1,2,3,4,5,0\n6,7,8,9,10,1\n";

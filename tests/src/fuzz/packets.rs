@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A board's line: bytes in, messages out.
 //!
-//! The first byte chooses the profile of the board, and whether what follows is the line itself or payloads of packets, which
-//! are given the CRC and the stuffing that a board gives them: by chance no line has a right CRC.
+//! The first byte chooses the profile of the board, and whether what follows is the line itself or payloads of packets.
+//! This target adds the CRC and the stuffing of a board to payloads: by chance no line has a right CRC.
 
 use std::sync::LazyLock;
 

@@ -39,7 +39,7 @@ fn is_quick(case: &Case) -> bool {
     sheets.all(|(_, level)| QUICK.contains(&level))
 }
 
-/// Numbers of slots of a case for which levels are not chosen here: each of them is looked at. More are refused.
+/// Numbers of slots of a case for which levels are not chosen here: that evaluates each slot. More are refused.
 const MANY_SLOTS: RangeInclusive<usize> = 100_000..=1_000_000;
 
 /// A slot of each pad, of a few samples.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How far the reference's `f64` can be from the equations, to first order in `u = 2^-53`: each
-//! operation rounds by `u` of its result, and what an operation makes of an operand's error is its
-//! condition number.
+//! How far the reference's `f64` can be from the equations, to first order in `u = 2^-53`. Each
+//! operation rounds by `u` of its result, and multiplies an operand's error by its condition
+//! number.
 //!
 //! | result | bound, in units of `u` | why |
 //! | --- | --- | --- |
@@ -9,7 +9,7 @@
 //! | cos φ, sin φ | 19 of one | φ ≤ 2π that is off by 3 roundings, and its own |
 //! | a_k | `e_k = √2·((2n + 8)·A_k + 32·B_k) + 4·a_k` | n terms are summed here and in Σw; `A_k = 2/Σw·Σ w·abs x`, `B_k` without w |
 //! | r | `((E + K·S)·(1 + abs r))/S + 2·abs r` | `S = Σ a_k`, `E = Σ e_k` over the K terminals of the ratio |
-//! | x, y | `J⁻¹` of r's bound and of [`SPLINE`], and [`PLACE`] roundings of the table's range | Newton's steps end where the ratio's evaluation is all that is left |
+//! | x, y | `J⁻¹` of r's bound and of [`SPLINE`], and [`PLACE`] roundings of the table's range | Newton's steps end where only the error of the ratio's evaluation is left |
 //! | R | `∂R/∂r` of the same, and [`SPLINE`] of R | nine products and their sum |
 //! | C | `δ_T + ½·(v²·(2δ_v + 2) + (TR)²·(2δ_T + 2δ_R + 4))/(v² − (TR)²) + 5` of C | the difference under the square root |
 //! | C by eq. 6 | `δ_T + δ_v + 4` of C | a quotient |
@@ -17,8 +17,8 @@
 //! | F | `2δ_C + δ_m + 5` of F | eq. 8 |
 //!
 //! The sums of n terms are bounded by n roundings though they behave as √n of them, so that a sum
-//! over 1000 samples is found well within its bound. What is bounded tightly is all that follows
-//! the sums.
+//! over 1000 samples is found well within its bound. Everything that follows the sums is bounded
+//! tightly.
 
 use hapticore_contract::calibration::Calibration;
 use hapticore_contract::frame::Measurement;

@@ -3,9 +3,9 @@
 //! quantity of a scene's slots, and a bound that is derived for each slot (`bound.rs`).
 //!
 //! Double-double is `xprec`'s `Df64`, of 104 bits or more in every operation that the reference
-//! uses; a test asks it. (`twofloat` 0.8.4 was tried: its quotients have 53 bits and its sines 66.)
-//! Codes, phasors and the calibration's numbers are taken as they are by both, so that the
-//! difference is the rounding of the evaluation alone.
+//! uses; a test asks it. `twofloat` 0.8.4 is too coarse: 53 bits in quotients, 66 in sines. Both
+//! take codes, phasors and the calibration's numbers as they are, so that the difference is the
+//! rounding of the evaluation alone.
 
 mod bound;
 

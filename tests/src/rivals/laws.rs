@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Laws that make a voltage of a target and a measured force.
 //!
-//! | law | words | what is told of it |
+//! | law | words | saturation and rounding |
 //! | --- | --- | --- |
 //! | [`Idsp`] | `f64` | a biquad built from PID gains whose output is clamped within its feedback |
 //! | [`PyRpl`] | 14 bits, gains of 24 | the integrator saturates at four times full scale, the sum at full scale; products are cut, not rounded |
@@ -25,7 +25,7 @@ pub const FULL_SCALE_V: f64 = 500.0;
 /// One over the largest code of 14 bits.
 const CODES: f64 = 8192.0;
 
-/// What a law is given of a frame.
+/// What a law receives of a frame.
 #[derive(Clone, Copy, Debug)]
 pub struct Seen {
     /// Force that the pad shall have, N.
@@ -114,7 +114,7 @@ fn volts(code: i64) -> f64 {
     code as f64 / CODES * FULL_SCALE_V
 }
 
-/// A gain in full scales of either side, as a code of so many fractional bits.
+/// A gain in full scales of either side, as a code of `frac` fractional bits.
 fn gain(volts_per_newton: f64, frac: i32) -> i64 {
     (volts_per_newton * FULL_SCALE_N / FULL_SCALE_V * 2f64.powi(frac)).round() as i64
 }

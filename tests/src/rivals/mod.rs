@@ -2,7 +2,7 @@
 //! Force controllers of other projects, described anew from their published behaviour, in a loop
 //! with this project's plant beside ours.
 //!
-//! Each is given the force by eq. 8 as an ideal core reads it in the frame that has just ended, and
+//! Each receives the force by eq. 8 as an ideal core reads it in the frame that has just ended, and
 //! sets the drive of the next. What a drive asks for beyond 0 and the rail, the amplifier cuts.
 //!
 //! | module | is |

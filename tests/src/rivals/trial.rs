@@ -32,9 +32,9 @@ pub enum Kind {
 pub enum Target {
     /// A square of 0.3 s from 0.05 s on, N.
     Square(f64),
-    /// A sine of 4 Hz from 0 to so many N.
+    /// A sine of 4 Hz from 0 to this many N.
     Sine(f64),
-    /// So many N from 0.05 s to 0.25 s, then others.
+    /// The first number, N, from 0.05 s to 0.25 s, then the second.
     Step(f64, f64),
 }
 
@@ -79,7 +79,7 @@ pub struct Trial {
 }
 
 impl Trial {
-    /// A law after this target, the amplifier's rail at so many V rms.
+    /// A law that follows this target, the amplifier's rail at `rail_v` V rms.
     ///
     /// # Panics
     /// A scene that has no plant.
@@ -155,7 +155,7 @@ pub fn rms_n(frames: &[Frame]) -> f64 {
     (sum / frames.len() as f64).sqrt()
 }
 
-/// From a time on, how long until the true force stays within so many N of its target, s; none
+/// From a time on, how long until the true force stays within `within_n` N of its target, s; none
 /// where it does not.
 pub fn settled_s(frames: &[Frame], from_s: f64, within_n: f64) -> Option<f64> {
     let after = frames.iter().skip_while(|frame| frame.end_s <= from_s);

@@ -78,7 +78,7 @@ impl Bench {
     }
 
     /// A pad off the middle of the sheet with this fraction of full scale at the terminal of the
-    /// largest current, and a tenth of full scale of haptic voltage that is periodic in the window.
+    /// largest current. Its haptic voltage is a tenth of full scale and periodic in the window.
     pub fn pad(&self, amplitude: f64) -> Pad {
         let shares = [1.0, 0.1, 0.2, 0.3, 0.1, 0.2];
         Pad {
@@ -165,7 +165,7 @@ impl Bench {
         self.reference().phasors(0, &self.phasors(pad), 0.5 * pad.haptic * pad.haptic)
     }
 
-    /// The core by every way at once, with a single pad.
+    /// The core by every way side by side, with a single pad.
     pub fn everyone(&self) -> Everyone {
         let profile = Profile { pads: 1, ..self.profile.clone() };
         Everyone {

@@ -74,13 +74,13 @@ impl Outcome {
         Outcome { about: about.into(), ..Outcome::default() }
     }
 
-    /// The same with a comparison that found no difference in so many results.
+    /// The same with a comparison that found no difference in `results` results.
     pub fn equal(mut self, results: u64) -> Self {
         self.margins.push(Margin::Equal(results));
         self
     }
 
-    /// The same with something that was seen to hold in so many results.
+    /// The same with a property that held in `results` results.
     pub fn holds(mut self, results: u64) -> Self {
         self.margins.push(Margin::Holds(results));
         self

@@ -9,7 +9,7 @@ use super::lock_in::amplitude::{Point, Sweep, sweeps};
 
 const SIZE: (u32, u32) = (960, 420);
 
-/// Colours that are told apart by whoever confuses red and green (Okabe and Ito).
+/// Colours that readers who confuse red and green can distinguish (Okabe and Ito).
 const COLOURS: [RGBColor; 3] =
     [RGBColor(0x00, 0x72, 0xb2), RGBColor(0xd5, 0x5e, 0x00), RGBColor(0x00, 0x9e, 0x73)];
 

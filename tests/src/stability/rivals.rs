@@ -34,8 +34,8 @@ pub fn idsp_phasor(bench: &Bench, window: &[i32], channel: usize) -> (f64, f64) 
     (f64::from(last.0) / 2f64.powi(29), f64::from(last.1) / 2f64.powi(29))
 }
 
-/// idsp's lock-ins with the estimator in floating point behind them; it has no mean square, and is
-/// given that of floating point.
+/// idsp's lock-ins with the estimator in floating point behind them. idsp has no mean square; this
+/// takes that of floating point.
 pub fn measure_with_idsp(bench: &Bench, window: &[i32]) -> Measurement {
     let phasors: Vec<_> =
         (0..=bench.terminals()).map(|channel| idsp_phasor(bench, window, channel)).collect();

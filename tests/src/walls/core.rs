@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The same hands with the whole loop between pad and drive: sheet, carrier, sensor noise and ADC of
-//! a scene, the core with its controller and wall at fidelity `fixed`, parts of the pad slot by slot.
+//! a scene, and the core with its controller and wall. The core has fidelity `fixed` and measures the
+//! parts of the pad slot by slot.
 
 use std::ops::Range;
 

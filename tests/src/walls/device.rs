@@ -6,8 +6,8 @@
 //! V = √(F_t/k)/C′,   at most 1.1·V(F_t) of the steady curve at nominal load          (docs/physics.md §6)
 //! ```
 //!
-//! C′ is that of the electrodes that brake, of the last frame; k and V(F) come from the device at
-//! rest under the nominal load, as a calibration finds them.
+//! C′ is that of the electrodes that brake, of the last frame; k and V(F) come from the resting
+//! device under the nominal load, as a calibration finds them.
 
 use std::fmt::Write;
 
@@ -113,7 +113,7 @@ pub struct Drive {
 }
 
 impl Drive {
-    /// As a calibration at rest finds it.
+    /// As a calibration of the resting device finds it.
     pub fn calibrated(pad: Pad) -> Drive {
         let (points, load_g) = (81, 1e3 * NOMINAL_N / GRAVITY);
         let text = format!(

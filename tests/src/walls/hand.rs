@@ -58,7 +58,7 @@ pub struct Hand {
 const START_MM: f64 = 12.0;
 
 impl Hand {
-    /// A hand drawn at random, at a wall of so many N/mm.
+    /// A hand drawn at random, at a wall of `wall_n_per_mm` N/mm.
     pub fn draw(seed: u64, wall_n_per_mm: f64) -> Hand {
         let mut rng = Rng::with_seed(seed);
         let mut between = |low: f64, high: f64| low + (high - low) * rng.f64();
@@ -101,8 +101,8 @@ impl Hand {
         }
     }
 
-    /// The hand of a seed, which now goes to and fro in air and then presses slowly into the wall,
-    /// with so many newtons, and rests there.
+    /// The hand of a seed. It goes to and fro in air, then presses slowly into the wall with
+    /// `press_n` newtons and stays there.
     pub fn pressing(seed: u64, wall_n_per_mm: f64, press_n: f64) -> Hand {
         let hand = Hand::draw(seed, wall_n_per_mm);
         let mut plan = Plan { parts: Vec::new(), at_mm: START_MM, time_s: 0.0 };
@@ -114,7 +114,7 @@ impl Hand {
         Hand { parts: plan.parts, ..hand }
     }
 
-    /// How the paper's authors went through a wall once: in by 10 mm, a rest, out again.
+    /// How the paper's authors went through a wall once: in by 10 mm, a pause, out again.
     pub fn of_the_paper() -> Hand {
         let mut plan = Plan { parts: Vec::new(), at_mm: START_MM, time_s: 0.0 };
         plan.go(Phase::Air, 4.0, 20.0);
@@ -161,7 +161,7 @@ impl Hand {
     }
 }
 
-/// Where a hand aims to press with so many newtons.
+/// Where a hand aims to press with `press_n` newtons.
 fn aim_mm(press_n: f64, hand_n_per_m: f64, wall_n_per_mm: f64) -> f64 {
     -press_n * (1e3 / hand_n_per_m + 1.0 / wall_n_per_mm)
 }

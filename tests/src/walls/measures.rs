@@ -18,7 +18,8 @@ use super::trial::Seen;
 /// A force below which the wall has let go, N.
 const GONE_N: f64 = 0.05;
 
-/// A burst: more than so many flips within so many seconds, in which tremor of 10 Hz turns four times.
+/// A burst: more than this number of flips within this time, s, in which tremor of 10 Hz turns four
+/// times.
 const BURST: (usize, f64) = (4, 0.2);
 
 /// The measures of one trial.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! How stiff a wall is to a hand that presses: the slope of the true haptic force over the depth, by
-//! least squares with a line through the surface, over the frames in which the hand pushes in and the
-//! force is not beyond a stated one.
+//! least squares with a line through the surface. The fit is over the frames in which the hand pushes
+//! in and the force is not beyond a stated one.
 
 use std::ops::Range;
 

@@ -12,7 +12,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// So many bytes of the end: heartbeats, the first of them from its middle on, then the frames.
+/// This many bytes of the end: heartbeats, the first of them from its middle on, then the frames.
 pub const BYTES: usize = 400;
 
 /// Of the calibration's raster every tenth place along either axis: what reads frames needs its

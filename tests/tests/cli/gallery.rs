@@ -29,8 +29,9 @@ fn simulate(folder: &Path, scene: &str, core: &str) -> Value {
     summary
 }
 
-/// Frames with a flag for which there is no reason: pads whose reach is not at the sheet's edge, pads that are not
-/// near each other, drives at their curve whose force is not short of its target, or any other flag.
+/// Frames with a flag for which there is no reason. `at_edge` is for pads whose reach is at the sheet's edge,
+/// `touching` for pads near each other, `at_curve` for drives whose force is short of its target. No other flag
+/// has a reason.
 fn unexpected_flags(table: &Table, summary: &Value) -> Vec<String> {
     const REACH_MM: f64 = 15.0;
     const NEAR_MM: f64 = 2.0;

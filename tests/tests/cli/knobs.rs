@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A bundled scene that passes has shown what its title says: whoever turns a knob that matters
-//! sees a criterion fail.
+//! A bundled scene that passes has shown what its title says: if a knob that matters is turned, a
+//! criterion fails.
 
 use hapticore_scene::gallery;
 use rayon::prelude::*;

@@ -148,7 +148,7 @@ fn a_controller_that_cannot_be_is_one_line_with_key_and_limit() {
     }
 }
 
-/// Nobody gave the gain that no word holds.
+/// The user did not set the gain that no word can represent.
 #[test]
 fn a_gain_that_follows_from_the_device_and_fits_no_word_is_refused_as_one() {
     let folder = tempfile::tempdir().unwrap();

@@ -89,7 +89,7 @@ fn replay(folder: &Path, args: &[&str]) -> Table {
     Table::read(&folder.join("o/frames.csv"))
 }
 
-/// Against the measurements of a CSV capture of integer codes of so many bits, finer ones than the
+/// Against the measurements of a CSV capture of integer codes of `bits` bits, finer ones than the
 /// ADC's 18 rounded to these, half to even. Floats and volts are compared at 24 bits: a code may
 /// then be rounded otherwise.
 fn same(folder: &Path, args: &[&str], bits: u16) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `hapticore sweep`: the same bytes by however many threads, calls and stops; what is torn, missing,
-//! failed or different is told.
+//! `hapticore sweep`: the same bytes by however many threads, calls and stops; the command reports
+//! what is torn, missing, failed or different.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -173,7 +173,7 @@ fn a_killed_sweep_goes_on_where_it_was() {
     assert!(resumed == swept(folder.path(), "whole", &[]));
 }
 
-/// Two programs on one store: each point is run by one of them, whoever comes first.
+/// Two programs on one store: each point is run by one of them, whichever comes first.
 #[test]
 fn two_runners_share_the_work_of_a_store() {
     let plan = PLAN.replace("[13, 15]", "{ from = 10, to = 16, step = 1 }");

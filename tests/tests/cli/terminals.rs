@@ -78,8 +78,7 @@ fn a_profile_of_ones_own_keeps_its_number_of_terminals() {
     refuse(folder.path(), &[&["simulate", "minimal-sheet"], &set[..]].concat(), &words);
 }
 
-/// A scene and a profile are all that a device of eight terminals needs: no line of the program
-/// names them.
+/// A device of eight terminals needs only a scene and a profile: no line of the program names them.
 #[test]
 fn eight_terminals_need_a_profile_and_a_scene_alone() {
     let folder = tempfile::tempdir().unwrap();

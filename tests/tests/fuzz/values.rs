@@ -19,7 +19,7 @@ fn bytes(data: &mut [u8], size: usize, most: usize) -> usize {
     size.min(most)
 }
 
-/// What becomes of a text with a seed, in so many bytes at most.
+/// What becomes of a text with a seed, in at most `most` bytes.
 fn mutated(target: &str, text: &str, seed: u32, most: usize) -> String {
     let mut data = text.as_bytes().to_vec();
     data.resize(most.max(text.len()), 0);

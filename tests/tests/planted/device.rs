@@ -2,7 +2,7 @@
 //! A device drawn at random: an ideal resistive sheet with four or six terminals, and pads on it.
 //!
 //! Terminal k at 1 V and all others at 0 V give the sheet the potential φ_k, which obeys Laplace's
-//! equation: by reciprocity φ_k(p) is the share of a pad's current at p that flows into terminal k.
+//! equation. By reciprocity φ_k(p) is the share of a pad's current at p that flows into terminal k.
 //! Solved on a square grid by successive overrelaxation.
 
 use std::f64::consts::TAU;

@@ -22,7 +22,7 @@ pub struct Recording {
 }
 
 impl Recording {
-    /// So many slots of a device.
+    /// `slots` slots of a device.
     pub fn of(device: &Device, slots: usize, rng: &mut Rng) -> Recording {
         let mut samples = Vec::with_capacity(slots * SLOT);
         for slot in 0..slots {
@@ -86,7 +86,7 @@ impl Recording {
         file
     }
 
-    /// A CSV file of codes of so many bits, which its head names or does not.
+    /// A CSV file of codes of `bits` bits, which its head names or does not.
     pub fn csv(&self, bits: u32, named: bool) -> String {
         let mut text = if named { format!("# bits = {bits}\n") } else { String::new() };
         text += &(self.names().join(",") + "\n");

@@ -34,8 +34,9 @@ fn force_k(plant: &Plant) -> f64 {
     product / points.iter().map(|point| square(point).powi(2)).sum::<f64>()
 }
 
-/// The force table of a device from readings on its bench, as multiples of its `force_k`: of a gap
-/// without time with filters without time; without a bench, of a scene without a gap, eq. 8.
+/// The force table of a device from readings on its bench, as multiples of its `force_k`. A static
+/// gap gives filters without time constants. Without a bench (a scene without a gap) the table is
+/// that of eq. 8.
 ///
 /// # Errors
 /// A device that cannot be simulated.

@@ -12,7 +12,7 @@ use anyhow::{Context, Result, ensure};
 
 use crate::interrupt;
 
-/// Bytes read at once.
+/// Bytes per read.
 const BLOCK: usize = 1 << 18;
 
 /// How often a reader that waits asks whether to go on.
@@ -116,8 +116,7 @@ impl Read for Piped {
     }
 }
 
-/// Bytes whose reader can be told to stop: comments, empty lines and chunks that nobody asks for
-/// may go on for ever.
+/// Bytes whose reader can be interrupted: comments, empty lines and skipped chunks may be endless.
 struct Interruptible(Box<dyn Read>);
 
 impl Read for Interruptible {

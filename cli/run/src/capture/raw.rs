@@ -24,7 +24,7 @@ pub enum Encoding {
         /// Bits below it, which are zero.
         shift: u32,
     },
-    /// A float, full scale at ±1 or so many volts.
+    /// A float, full scale at ±1 or at a voltage.
     Float,
 }
 
@@ -42,8 +42,8 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// Integers of so many bytes with codes of `bits`: at the bottom where they are described, else
-    /// at the top.
+    /// Integers of `bytes` bytes. The codes are in the low bits where `described` states their
+    /// number, else they are of `bits` bits, in the high bits.
     ///
     /// # Errors
     /// More bits than the bytes have.
@@ -66,7 +66,7 @@ impl Layout {
         Ok(Layout { bytes, big_endian, encoding: Encoding::Integer { bits, shift }, full_scale })
     }
 
-    /// Floats of so many bytes.
+    /// Floats of `bytes` bytes.
     pub fn float(bytes: usize, full_scale_v: Option<f64>, big_endian: bool) -> Self {
         Layout {
             bytes,

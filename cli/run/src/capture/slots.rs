@@ -8,7 +8,7 @@
 //! ```
 //!
 //! A slot is whole where the next border is one slot behind its own. A slot that is shorter or longer
-//! has lost or repeated samples: the pad's last whole slot takes its place, so that the core holds its
+//! has lost or repeated samples. The pad's last whole slot takes its place, so that the core holds its
 //! values, and its frame carries the flag [`BROKEN`]. A `pad` column shows borders, too, and a column
 //! of times says how many samples are missing. What was skipped is in [`Slots::notes`].
 
@@ -25,8 +25,8 @@ pub const BROKEN: &str = "broken";
 /// The energy of a visible border, as a part of that of the slots about it.
 const QUIET: f64 = 0.02;
 
-/// A border is as quiet as it can be within so many samples, to this factor, and this part of the
-/// slots' energy.
+/// A border is as quiet as any point within `NEAR` samples, up to the factor `ALIKE` and the part
+/// `TINY` of the slots' energy.
 const NEAR: usize = 4;
 
 /// See [`NEAR`].
@@ -86,7 +86,7 @@ pub struct Cut {
 enum Border {
     /// One is where it should be.
     Here,
-    /// The next one is so many samples behind the slot's first.
+    /// The next one is this many samples behind the slot's first.
     After(usize),
     /// None is visible.
     Unseen,
@@ -211,7 +211,7 @@ impl<'a> Slots<'a> {
         self.was_broken && front.is_some_and(|front| front != pad && front < self.shape.pads)
     }
 
-    /// The pad's last whole slot in place of so many samples.
+    /// The pad's last whole slot in place of the next `samples` samples.
     fn held(&mut self, pad: usize, samples: usize) -> Cut {
         let at = self.at;
         self.first_broken.get_or_insert_with(|| format!("sample {at}, pad {pad}"));
@@ -237,7 +237,7 @@ impl<'a> Slots<'a> {
         self.source.place()
     }
 
-    /// What was skipped, replaced, or not to be seen; whoever uses the frames must know it.
+    /// What was skipped, replaced, or not visible: users of the frames must know it.
     pub fn notes(&self) -> Vec<String> {
         let name = self.source.place();
         let name = name.rsplit_once(':').map_or(name.as_str(), |(file, _)| file);
@@ -274,7 +274,7 @@ impl<'a> Slots<'a> {
 
 /// The buffer.
 impl Slots<'_> {
-    /// Reads until the buffer has so many samples, if there are.
+    /// Reads until the buffer has `samples` samples or the source ends.
     fn fill(&mut self, samples: usize) -> Result<()> {
         while self.pads.len() < samples && !self.ended {
             if self.missing > 0 {
@@ -465,8 +465,8 @@ impl Slots<'_> {
         self.quietness(at) <= ALIKE * self.quietness(other) + TINY * level
     }
 
-    /// Whether so many samples, more than a slot has, are of two pads, and the border between them is
-    /// lost: the currents of their first and their last part are in another proportion.
+    /// Whether `samples` samples, more than a slot has, are of two pads whose border is lost: the
+    /// currents' proportions in the first and in the last part differ.
     fn is_of_two_pads(&self, samples: usize) -> bool {
         let (open, channels) = (self.shape.open, self.shape.channels);
         if samples <= self.shape.samples || self.by_pad() || self.shape.pads == 1 {

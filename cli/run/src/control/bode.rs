@@ -7,8 +7,9 @@
 //! ```
 //!
 //! From target to true force, a sine of the target is added instead; the force is that of the pad's
-//! slots, held from each to the next. U and D are amplitudes at the frequency, over whole periods under a Hann window, after the loop
-//! has come to rest. Core, noise, words and estimates are those of the run.
+//! slots, held from each to the next. U and D are amplitudes at the frequency, over whole periods
+//! under a Hann window, after the loop has settled. Core, noise, words and estimates are those of
+//! the run.
 
 use std::f64::consts::TAU;
 
@@ -28,7 +29,7 @@ const FRAMES: usize = 400;
 const REST_S: f64 = 0.3;
 /// Periods within them, one frequency each.
 const PERIODS: [usize; 16] = [6, 9, 13, 18, 25, 34, 45, 58, 72, 87, 103, 119, 135, 151, 167, 183];
-/// Amplitudes, of the drive and of the target at rest.
+/// Amplitudes of the sines, as parts of the steady drive and of the target.
 const OF_DRIVE: f64 = 0.01;
 const OF_TARGET: f64 = 0.05;
 
@@ -59,7 +60,7 @@ pub fn measure(
 ) -> Result<Option<Bode>> {
     let Some(open) = OpenLoop::of(case, force_n)? else { return Ok(None) };
     let frequency = |index: usize| PERIODS[index] as f64 / (FRAMES as f64 * open.frame_s);
-    // What the loop does without a sine: turns of the wave, and what is left of its way to rest.
+    // What the loop does without a sine: turns of the wave, and what is left of its settling.
     let still = Excitation { hold_n: force_n, ..Excitation::default() };
     let idle = follow(case, settings, still)?;
     let point = |index: usize| {
@@ -115,8 +116,8 @@ fn follows(point: &BodePoint) -> bool {
     numbers.iter().chain([&point.closed_db]).all(|number| number.is_finite())
 }
 
-/// What is left of a sine in steps, each held for so many of its periods: true forces are looked at
-/// once a frame.
+/// The amplitude that is left of a sine in steps, each held for `periods` of its periods: true
+/// forces are sampled once a frame.
 fn hold(periods: f64) -> f64 {
     let angle = std::f64::consts::PI * periods;
     angle.sin() / angle

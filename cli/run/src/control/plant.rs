@@ -56,7 +56,7 @@ pub struct LoopPlant {
 
 /// A slot, and what its drive should give.
 pub struct LoopSlot {
-    /// What the core is given.
+    /// What the core receives.
     pub slot: Slot,
     /// What the plant knows.
     pub truth: Truth,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How stable a force loop is, predicted: its open loop from drive to drive, frame by frame, for small
-//! changes about a force at rest.
+//! Predicted stability of a force loop: its open loop from drive to drive, frame by frame, for small
+//! changes about a steady force.
 //!
 //! ```text
 //! L(z) = C(z)·G(z),   G(z) = Σ (s_n − s_(n−1))·z^−n        s_n: what a step of the drive has done after n frames
@@ -9,12 +9,12 @@
 //! inverse        C = V                         s of ln C′
 //! ```
 //!
-//! s is that of the simulated pad alone, without core, noise or words, after the law in floating point
-//! has brought it to rest: latency of the drive word and the middle of the window are the loop's. The force F̂ is by eq. 8, or true where the core
-//! has a force table. What follows of a factor on the gains (gain margin) and of the phase at |L| = 1
-//! (phase margin) is read on a grid up to half the frame rate. The time constants of a force table's
-//! filters are no part of it. Beside it stands a step of the same loop from zero: pull-in is no small change. Where
-//! charge makes a turn of the wave change the force, both are between turns. Source: docs/physics.md §6.
+//! s is that of the simulated pad alone, without core, noise or words, after the law in floating point has settled
+//! it. Latency of the drive word and the middle of the window are the loop's. The force F̂ is by eq. 8, or true
+//! where the core has a force table. What follows of a factor on the gains (gain margin) and of the phase at |L| =
+//! 1 (phase margin) is read on a grid up to half the frame rate. The time constants of a force table's filters are
+//! no part of it. Beside it stands a step of the same loop from zero: pull-in is no small change. Where charge
+//! makes a turn of the wave change the force, both are between turns. Source: docs/physics.md §6.
 
 use std::f64::consts::PI;
 
@@ -39,20 +39,20 @@ const FOLLOWED_S: f64 = 0.03;
 const FOLLOWED: usize = 20;
 /// Drives whose mean is held.
 const MEAN: usize = 20;
-/// Frames of a step at least, the last third of which shows whether it comes to rest.
+/// Fewest frames of a step; their last third shows whether it settles.
 const STEPPED: usize = 60;
-/// By how much of its target the force of a loop at rest may swing.
+/// By how much of its target the force of a settled loop may swing.
 const MOST_SWING_PERCENT: f64 = 10.0;
 /// Frames from one turn of the wave to the next, between which a loop can be followed.
 const LEAST_TURN: f64 = 4.0;
 /// A step, of the voltage.
 const STEP: f64 = 1e-3;
-/// Frequencies that are looked at.
+/// Frequencies of the grid.
 const GRID: usize = 600;
-/// Below this a warning is given, degrees.
+/// A phase margin below this leads to a warning, degrees.
 pub const LEAST_PHASE_DEG: f64 = 45.0;
 
-/// The open loop about a force at rest.
+/// The open loop about a steady force.
 pub struct OpenLoop {
     law: ControlLaw,
     /// K_p and K_i·T, or α·K_p and 1 − α, or V.
@@ -61,9 +61,9 @@ pub struct OpenLoop {
     response: Vec<f64>,
     /// From a pad's slot to its next, s.
     pub frame_s: f64,
-    /// From the middle of a window to the middle of the time for which its drive is given, s.
+    /// From the middle of a window to the middle of the time for which its drive is held, s.
     pub delay_s: f64,
-    /// Drive at rest, V rms.
+    /// Steady drive, V rms.
     pub rest_v: f64,
 }
 
@@ -121,7 +121,7 @@ impl OpenLoop {
         OpenLoop { gains, response: self.response.clone(), ..*self }
     }
 
-    /// The gain per frame with which the law makes up for a step at once.
+    /// The gain per frame with which the law corrects a step in one frame.
     pub(super) fn unit_gain(&self) -> f64 {
         1.0 / self.response.iter().fold(0.0, |most: f64, step| most.max(*step))
     }
@@ -191,7 +191,7 @@ pub fn step(case: &Case, force_n: f64) -> Result<Option<Step>> {
 }
 
 impl Step {
-    /// Whether the loop comes to rest.
+    /// Whether the loop settles.
     pub fn settles(&self) -> bool {
         self.swing_percent <= MOST_SWING_PERCENT
     }
@@ -212,8 +212,8 @@ impl Stability {
     }
 }
 
-/// A pad whose loop is closed in floating point, without a core, until it rests; then its drive is
-/// held: what the film has been through is as in the loop.
+/// A pad whose loop is closed in floating point, without a core, until it settles. Then its drive
+/// is held, so that the film has the history that it has in the loop.
 pub(super) struct Bench<'a> {
     case: &'a Case<'a>,
     plan: &'a ControlPlan,
@@ -226,7 +226,7 @@ pub(super) struct Bench<'a> {
     as_calibrated: bool,
 }
 
-/// What brings a pad to rest.
+/// What settles a pad.
 #[derive(Clone, Copy, Debug)]
 enum Rest {
     /// The law.
@@ -266,8 +266,8 @@ impl<'a> Bench<'a> {
         (seconds / self.frame_s).ceil() as usize
     }
 
-    /// The drive at rest, and the law's quantity, frame by frame, from the slot on after which the
-    /// drive has risen by a part of it, so many frames later than usual.
+    /// The steady drive, and the law's quantity, frame by frame, from the slot on after which the
+    /// drive has risen by `part` of it. The rise is `shift` frames later than usual.
     fn followed(&self, by: Rest, part: f64, shift: usize) -> Result<(f64, Vec<f64>)> {
         let (mut plant, pads) = (self.idle_plant()?, self.case.profile.pads as usize);
         let mut controller = self.controller()?;
@@ -301,8 +301,8 @@ impl<'a> Bench<'a> {
         Ok((held_v, quantities))
     }
 
-    /// The frame whose drive is stepped, and the last that is followed: between two turns of the wave, where a turn
-    /// changes the force that is measured and there are frames enough from turn to turn.
+    /// The frame whose drive is stepped, and the last that is followed. Both are between two turns of the wave,
+    /// where a turn changes the measured force and there are frames enough from turn to turn.
     fn between_turns(&self, plant: &Plant, rest: usize) -> [usize; 2] {
         let end = rest + self.frames(FOLLOWED_S).max(FOLLOWED);
         let turn_s = self.turn_s(plant).filter(|turn_s| *turn_s >= LEAST_TURN * self.frame_s);
@@ -449,7 +449,7 @@ impl<'a> Bench<'a> {
 mod tests {
     use super::*;
 
-    /// Integral laws over a plant that follows at once: stable where i < 2·(1 − p) (Jury).
+    /// Integral laws over a plant that follows within a frame: stable where i < 2·(1 − p) (Jury).
     #[test]
     fn a_loop_without_dynamics_has_the_margins_of_its_polynomial() {
         for (p, i) in [(0.1, 0.5), (0.1, 1.7), (0.1, 1.9), (0.0, 1.0)] {

@@ -182,7 +182,7 @@ fn nominal_load_g(plan: &ControlPlan, plant: &Plant) -> f64 {
     plan.nominal_load_g.unwrap_or_else(|| plant.mean_load_g())
 }
 
-/// Voltages and the forces that they give at rest under the nominal load.
+/// Voltages and the steady forces that they give under the nominal load.
 fn steady(plan: &ControlPlan, plant: &Plant) -> Vec<[f64; 2]> {
     let step_v = plan.rail_v / (MEASURED - 1) as f64;
     let volts: Vec<f64> = (0..MEASURED).map(|n| step_v * n as f64).collect();

@@ -8,7 +8,7 @@ use hapticore_scene::Criterion;
 use super::estimate::{Estimate, estimated};
 use crate::record::Row;
 
-/// A jump is at least so many times the mean change.
+/// A jump is at least this many times the mean change.
 const STANDS_OUT: f64 = 5.0;
 
 /// Slots of a pad before and after a jump that are averaged: the ripple of a gap that follows a sine

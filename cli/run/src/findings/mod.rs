@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a run leaves to be known at its end: flagged frames by kind and pad, how far each pad's force is off its target
-//! and off what the core reads, and what sticks to a hand that leaves a wall.
+//! Summary of a run at its end: flagged frames by kind and pad, and the error of each pad's force against its target
+//! and against the core's measurement. For walls, also the sticking force on a hand that leaves.
 
 mod drives;
 mod sentences;

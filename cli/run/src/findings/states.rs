@@ -5,7 +5,7 @@
 //! | --- | --- |
 //! | `at_rail` | the drive has been at its rail, and the force short of its target |
 //! | `at_curve` | the inverse law's drive has been at its curve, and the force short of its target |
-//! | `at_slew` | the drive has changed by all that it may |
+//! | `at_slew` | the drive has changed by the most that it may |
 //! | `swings` | the force has gone to and fro about a target that stays |
 //!
 //! Each has to last for 40 ms and 6 frames. They follow from what a host knows: the frame, the target and the

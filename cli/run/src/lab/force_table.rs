@@ -206,7 +206,7 @@ mod tests {
     use super::*;
     use nalgebra::{DMatrix, DVector};
 
-    /// One reading after the other, against the formula with all at once and its inverse.
+    /// One reading after the other, against the formula over all of them and its inverse.
     #[test]
     fn readings_one_by_one_are_all_at_once() {
         let prior = Knowledge::prior();

@@ -32,10 +32,10 @@ const BOTH_SIDES: f64 = 0.15;
 /// A current that reads more than this factor of the others is named.
 const GAIN: f64 = 1.15;
 
-/// And is so many standard errors off.
+/// And is this many standard errors off.
 const ERRORS: f64 = 4.0;
 
-/// Places for each terminal, at least, from which gains are told.
+/// Fewest places for each terminal from which gains are estimated.
 const PLACES_PER_TERMINAL: usize = 4;
 
 /// Checks units and origin of places.

@@ -5,10 +5,10 @@
 //!   f(p) = e(p) + Σ a_i·|p − p_i|³ + b·p + c,   f(p_i) + λ·a_i = f_i,   Σ a_i = Σ a_i·p_i = 0
 //!
 //! e is what a uniform sheet has there, where the setup says enough, else 0. Measurements have
-//! noise, which a spline through all of them would follow: λ is the one that leaves least of each
-//! measurement that is left out. Sources: Duchon, "Splines minimizing rotation-invariant semi-norms
-//! in Sobolev spaces", 1977 (kernel r³ in the plane); Wahba, "Spline models for observational
-//! data", 1990, ch. 4 (leaving one out).
+//! noise, which a spline through all of them would follow: λ minimises the leave-one-out error of
+//! the measurements. Sources: Duchon, "Splines minimizing rotation-invariant semi-norms in Sobolev
+//! spaces", 1977 (kernel r³ in the plane); Wahba, "Spline models for observational data", 1990, ch.
+//! 4 (leaving one out).
 
 use anyhow::{Result, anyhow};
 use nalgebra::{DMatrix, DVector};
@@ -28,7 +28,7 @@ const LINEAR: usize = 3;
 /// The λ that are tried.
 const LAMBDAS: [f64; 9] = [0.0, 1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2];
 
-/// So many places, at most, are left out one by one: the best λ depends on the noise, not on their
+/// At most this many places are left out one by one: the best λ depends on the noise, not on their
 /// number.
 const LEFT_OUT: usize = 400;
 

@@ -139,10 +139,10 @@ impl Setup {
         })
     }
 
-    /// The signs of so many terminals in the ratios.
+    /// The signs of `terminals` terminals in the ratios.
     ///
     /// # Errors
-    /// Neither signs nor places of so many are given; the message names the key.
+    /// The setup has neither signs nor places for this number; the message names the key.
     pub fn signs(&self, terminals: usize) -> Result<Signs> {
         let Terminals { x, y, places_mm } = &self.terminals;
         let count = |key: &str, got: usize| {

@@ -10,7 +10,7 @@ use rand::rngs::StdRng;
 pub type Limits = [Option<f64>; 3];
 type Bits = Vec<u64>;
 
-/// The better of two candidates: the one that holds, then the cheaper one.
+/// The better of two candidates: one that holds the limits, then the cheaper one.
 fn keep(model: &Model, limits: &Limits, best: &mut Option<Bits>, bits: &Bits) {
     let is_cheaper = best.as_ref().is_none_or(|best| model.luts(bits) < model.luts(best));
     if is_cheaper && model.holds(bits, limits) {

@@ -8,9 +8,9 @@
 //! F = gain · factor · (C·V)²
 //! ```
 //!
-//! V is the square root of the mean-square word. Statically the force is a function of capacitance
-//! and voltage; while the gaps move, the voltage that counts is the one they have had: V_s forgets
-//! in 10 ms, V_m, as the rubber creeps, in 1.5 s. Source: docs/physics.md §3.
+//! V is the square root of the mean-square word. In steady state the force is a function of
+//! capacitance and voltage. While the gaps move, the force depends on the voltages of the recent
+//! past: V_s forgets in 10 ms, V_m, as the rubber creeps, in 1.5 s. Source: docs/physics.md §3.
 
 use super::position::Real;
 

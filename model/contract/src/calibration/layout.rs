@@ -5,9 +5,9 @@
 //! scalars of x │ scalars of y │ r_x: rows of columns │ r_y: likewise │ R: fewer rows and columns
 //! ```
 //!
-//! A quadratic B-spline over n cells has n + 2 coefficients; those of cell k are k, k + 1 and k +
-//! 2, and coefficient k + 1 has its centre in the middle of cell k. The number of cells is odd
-//! along either axis, so that a coefficient lies in the middle of the table.
+//! A quadratic B-spline over n cells has n + 2 coefficients. Those of cell k are k, k + 1 and k +
+//! 2; coefficient k + 1 has its centre in the middle of cell k. The number of cells is odd along
+//! either axis, so that a coefficient lies in the middle of the table.
 
 use crate::profile::Profile;
 use hapticore_hdl::format::Format;
@@ -80,7 +80,7 @@ impl Layout {
     pub const SCALARS: usize = 8;
     /// A ratio's gain is its scalar times this.
     pub const GAIN: f64 = 16.0;
-    /// A place of one, as a fraction, is so many cells from the table's middle.
+    /// Cells from the table's middle to a place whose fraction is 1.
     pub const CELLS: f64 = 32.0;
     /// Normalised ratios at the place found and measured ones agree within `2^-TOLERANCE_BITS`, or
     /// there is no such place.

@@ -91,8 +91,8 @@ impl Calibration {
         }
     }
 
-    /// What a core of the profile is given through its table port, by address, as fractions: the
-    /// position table, and behind it the force table where the law is one.
+    /// The words that a core of the profile receives through its table port, by address, as
+    /// fractions: the position table, and behind it the force table where the law is one.
     pub fn words(&self, profile: &Profile) -> Vec<f64> {
         let force = (profile.force.law == ForceLaw::Table).then(|| self.force_table.words());
         self.position.words.iter().copied().chain(force.into_iter().flatten()).collect()

@@ -151,7 +151,7 @@ pub struct Capacitance {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Haptic {
-    /// The mean square is that of so many of a pad's windows: a power of two.
+    /// Windows of a pad over which the mean square is taken: a power of two.
     pub windows: u64,
 }
 
@@ -210,7 +210,7 @@ pub struct Formats {
     pub total: Format,
     /// Bits by which in-phase and quadrature words may be moved up, those of all terminals
     /// together, so that the largest fills its word; 0 leaves the point where it is. `total` is
-    /// then the format of the amplitudes that are given on.
+    /// then the format of the amplitudes after that.
     pub block_shift: u8,
     /// The ratios of eqs. 2 and 3.
     pub ratio: Format,
@@ -412,7 +412,7 @@ impl Profile {
 }
 
 impl Control {
-    /// A controller with words as wide as the profile's multipliers take at once.
+    /// A controller with words as wide as the profile's multipliers take in one product.
     ///
     /// ```
     /// use hapticore_contract::control::{Control, Law};
@@ -503,9 +503,9 @@ impl Profile {
         Format::unsigned(word.width - 1, word.frac)
     }
 
-    /// The format of the amplitudes of total current and sensing voltage: of the square root of two
-    /// squares of a total's word, one more bit than the word without its sign and one for the
-    /// square root's rounding.
+    /// The format of the amplitudes of total current and sensing voltage. Each is the square root
+    /// of two squares of a total's word: one more bit than the word without its sign and one for
+    /// the square root's rounding.
     pub fn amplitude_format(&self) -> Format {
         Format::unsigned(self.formats.total.width + 1, self.formats.total.frac)
     }

@@ -36,9 +36,9 @@ pub enum Release {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Wall {
-    /// Slots of a pad, one for each of its parts: 2 that sense and brake, left and right; 3, of
-    /// which the last brakes alone; or 4 quadrants that sense and brake, top left, bottom left, bottom
-    /// right and top right, with a wall along either axis.
+    /// Slots of a pad, one for each of its parts. With 2 parts, left and right sense and brake; with 3, the last brakes
+    /// alone. With 4, quadrants sense and brake, top left, bottom left, bottom right and top right, with a wall along
+    /// either axis.
     pub parts: u64,
     /// When it lets go.
     pub rule: Release,
@@ -69,7 +69,7 @@ pub struct Wall {
     pub quiet_frames: u64,
     /// What counts as a slip, µm.
     pub slip_um: u64,
-    /// The force beyond which no reading lets go, where a push at rest may fall, mN.
+    /// The force beyond which no direction reading releases, where a stationary push's force may fall, mN.
     pub latch_mn: u64,
 }
 

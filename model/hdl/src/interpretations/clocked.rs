@@ -20,7 +20,7 @@ impl Codes {
         &self.words
     }
 
-    /// The words, for whoever does at once what takes several clocks.
+    /// The words, for a caller that does in one step what takes several clocks.
     #[inline(always)]
     pub fn words_mut(&mut self) -> &mut [i64] {
         &mut self.words

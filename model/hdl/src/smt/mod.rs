@@ -7,8 +7,8 @@
 //!
 //! | problem | asks for |
 //! | --- | --- |
-//! | [`System::base`] | a run from reset in which a property fails within so many clocks |
-//! | [`System::step`] | a run from any state that satisfies all invariants, in which a property fails after so many clocks |
+//! | [`System::base`] | a run from reset in which a property fails within N clocks |
+//! | [`System::step`] | a run from any state that satisfies all invariants, in which a property fails after N clocks |
 //! | [`System::replay`] | a difference between this relation and the clocked model's trace |
 //!
 //! Where base and step of every [`Property`] are `unsat`, it holds at every clock for ever, by

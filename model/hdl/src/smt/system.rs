@@ -23,7 +23,7 @@ pub struct System<'a> {
 pub enum Property {
     /// The invariant of this index.
     Invariant(usize),
-    /// The `Assumed` narrowing at this wire fits its format; or one that lacks so many bits of it,
+    /// The `Assumed` narrowing at this wire fits its format, or one that lacks this number of bits,
     /// to see that a solver refutes it.
     Claim(Node, u8),
 }
@@ -74,7 +74,7 @@ impl<'a> System<'a> {
         live.filter_map(assumed).collect()
     }
 
-    /// Whether a property can fail within so many clocks after reset.
+    /// Whether a property can fail within `clocks` clocks after reset.
     pub fn base(&self, property: Property, clocks: usize) -> Problem {
         let mut unrolled = Unrolled::new(&self.places, true);
         let fails: Vec<String> = (0..clocks)
@@ -87,7 +87,7 @@ impl<'a> System<'a> {
         problem(unrolled)
     }
 
-    /// Whether a property can fail after so many clocks, where it held so far and all invariants
+    /// Whether a property can fail after `clocks` clocks, where it held so far and all invariants
     /// hold from the first state to the last; an invariant itself is then in question.
     pub fn step(&self, property: Property, clocks: usize) -> Problem {
         let mut unrolled = Unrolled::new(&self.places, false);

@@ -22,7 +22,7 @@ pub fn name(module: &Module, hashes: &[u64], node: Node) -> String {
     }
 }
 
-/// The expression of a wire in words, none where it would take more than so many letters.
+/// The expression of a wire in words, none where it would take more than `most` letters.
 fn spell(module: &Module, node: Node, most: usize) -> Option<String> {
     let wire = &module.wires[node.0 as usize];
     if let Some(name) = leaf(module, node).or_else(|| wire.name.map(str::to_owned)) {

@@ -85,7 +85,7 @@ impl Scope<'_> {
         format!("{{{sign}, {kept}}}")
     }
 
-    /// One where the rest is over a half, or is a half and the kept part is odd.
+    /// One where the dropped part is over a half, or is a half and the kept part is odd.
     fn round_up(&mut self, id: Id, drop: u8, width: u8) -> String {
         let (half, odd) = (self.slice(id, drop - 1, drop - 1), self.slice(id, drop, drop));
         let above = match drop {

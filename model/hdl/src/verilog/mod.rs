@@ -10,7 +10,7 @@
 //! | --- | --- |
 //! | an exact sum, difference | both operands extended to the width of the result |
 //! | a product | signed where one factor is; the other then gets a zero in front |
-//! | `quantize` with `HalfEven` | the kept bits, and one more where the rest is over a half, or a half and the kept part odd |
+//! | `quantize` with `HalfEven` | the kept bits, plus one if the dropped part is over ½, or is ½ and they are odd |
 //! | `quantize` with `Saturate` | the low bits where those above agree, else the largest or smallest code |
 //! | a memory | an array with one read register and one write port, in a process of its own: a block RAM |
 //! | a register | synchronous reset to zero |

@@ -8,11 +8,11 @@
 //! integral       e = s − [√(F/4^h)],  d = D + [K·e] + [c + [K_i·e]]
 //! ```
 //!
-//! In laws with an error, s, D and what is added to it are finer than a drive word, by 8 bits at most, so that
-//! the roots of two forces differ: 2^-b with b ≥ (bits of a force) + 2·h + 1; F has no more bits than that
-//! lets differ. c is 8 bits finer still. It stays as it
-//! is while estimates are invalid. While drives are off they are zero, and every pad begins anew. Against a limit that holds the drive it goes as far as drive − (D + K·e),
-//! and not back.
+//! In laws with an error, s, D and what is added to it are finer than a drive word, by 8 bits at most, so that the
+//! roots of two forces differ. Their step is 2^-b with b ≥ (bits of a force) + 2·h + 1; F has no more bits than that
+//! lets differ. c is 8 bits finer still. It stays as it is while estimates are invalid. While drives are off they are
+//! zero, and every pad begins anew. Against a limit that holds the drive it goes as far as drive − (D + K·e), and not
+//! back.
 //!
 //! [x] is x in its format: to the nearest code, ties to even, saturated.
 

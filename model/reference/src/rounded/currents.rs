@@ -59,9 +59,9 @@ fn moved(profile: &Profile, words: &[[Exact; 2]]) -> (i8, Vec<[Exact; 2]>) {
 /// The currents where the words of the terminals have one exponent, and those of the sensing
 /// voltage another.
 ///
-/// Amplitudes of terminals count 2^-by; that of the total is rounded by as many bits as the
-/// terminals' number has, and both it and the sensing voltage's are brought back: ⌊a / 2^by⌋ in a
-/// word's step, then to the nearest of those given on.
+/// Amplitudes of terminals count 2^-by. The total is first rounded by as many bits as the
+/// terminals' number has. The amplitudes of total and sensing voltage are then brought back:
+/// ⌊a·2^-by⌋ in a word's step, then to the nearest of their output format.
 fn block_currents(profile: &Profile, sums: &[[Exact; 2]], shift: i8) -> Currents {
     let f = &profile.formats;
     let wide =

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The words of frames, of which ratios are rounded to the width of the widest other one: what is
-//! invalid is the pad's last valid, of a lifted pad the place; the mean square, the last word, is always its own.
+//! The words of frames. Ratios are rounded to the width of the widest other word. Invalid words repeat the pad's last
+//! valid ones; a lifted pad repeats its place. The mean square, the last word, is always its own.
 
 use super::{Exact, round};
 use hapticore_contract::format::Format;

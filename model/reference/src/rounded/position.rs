@@ -232,8 +232,8 @@ impl Position {
         (stepped, beyond(off[0]) | beyond(off[1]))
     }
 
-    /// Over a positive determinant the quotient of so many digits; else as far as they go, by the
-    /// sign.
+    /// Over a positive determinant the quotient, to `digits` digits; else the most negative or most
+    /// positive code, by the sign.
     fn quotient(&self, by: Exact, determinant: Exact) -> Exact {
         let digits = (i32::from(self.word.width) - 3).min(16);
         let (half, most) = (determinant * power(-digits), 1i128 << (digits - 1));
@@ -244,7 +244,7 @@ impl Position {
         } else {
             most - 1
         };
-        // Four cells, of 32 to one, in so many steps.
+        // Codes span ±4 cells, of 32 to one, in 2^digits steps.
         Exact::new(code, 1 - digits - 3)
     }
 

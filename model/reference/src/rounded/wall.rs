@@ -21,7 +21,7 @@ const EVIDENCE: Format = Format::unsigned(14, 8);
 const GAIN: Format = Format::unsigned(11, 10);
 const SLOW: Format = Format::signed(16, 16);
 
-/// What a wall is given in a frame of a pad.
+/// The inputs of a wall in a frame of a pad.
 #[derive(Debug, Clone, Copy)]
 pub struct WallFrame {
     /// The pad starts anew.

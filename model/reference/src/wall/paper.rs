@@ -6,11 +6,10 @@
 //! V = K_w·x̃  where x̃ < 0 and x̃·Δx̃ ≤ 0            (eq. 12)
 //! ```
 //!
-//! The paper's x̃ is a ratio of currents and its K_w a voltage per ratio, so `v_per_mm` is K_w over
-//! the millimetres of a ratio of one. With which sign a push into the wall reads depends on the
-//! order of the terminals and on how the pad is held: as the paper writes it, x̃·Δx̃ ≤ 0 with x̃ < 0
-//! asks for Δx̃ ≥ 0, `inwards` = +1; a pad that is pushed from above tips forward, and reads Δx̃ < 0
-//! where it is pushed into this wall, `inwards` = −1. A pad without current keeps the last direction.
+//! The paper's x̃ is a ratio of currents and its K_w a voltage per ratio, so `v_per_mm` is K_w over the millimetres of
+//! a ratio of one. The sign of Δx̃ for a push into the wall depends on the order of the terminals and on how the pad is
+//! held. As the paper writes it, x̃·Δx̃ ≤ 0 with x̃ < 0 asks for Δx̃ ≥ 0, `inwards` = +1. A pad pushed from above tips
+//! forward: a push into this wall then gives Δx̃ < 0, `inwards` = −1. A pad without current keeps the last direction.
 
 use super::{Direction, Frame, Rule, Target};
 

@@ -45,7 +45,7 @@ pub struct Test {
     pub bf: f64,
     /// How long a state lasts at least, ms.
     pub dwell_ms: f64,
-    /// When the force of a push at rest falls, if it may.
+    /// When the force of a stationary push falls, if it may.
     pub fade: Option<Fade>,
 }
 

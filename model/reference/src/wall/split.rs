@@ -48,7 +48,7 @@ pub struct SplitPads {
 }
 
 impl SplitPads {
-    /// So many parts of pads with walls of a profile.
+    /// `parts` parts of pads with walls of a profile.
     pub fn new(wall: &Wall, walls: &Walls, parts: usize) -> Self {
         let stiffness = Stiffness { n_per_mm: walls.stiffness_n_per_mm, most_n: walls.most_n };
         let along_x = if walls.right { -walls.factory } else { walls.factory };

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Faults of the force controller: each takes every pad's drive to zero at once, and stays until it is cleared.
+//! Faults of the force controller: each takes every pad's drive to zero immediately, and stays until it is cleared.
 //!
 //! | fault   | when                                                                           |
-//! | silence | no sign of life from the host for so many ticks, of a millisecond each         |
-//! | sensor  | so many estimates of a pad in a row were invalid; until then its drive is held |
+//! | silence | no sign of life from the host for N ticks, of a millisecond each               |
+//! | sensor  | N estimates of a pad in a row were invalid; until then its drive is held       |
 //! | force   | a valid estimate was beyond the cap                                            |
 //!
 //! What causes a fault and still holds when it is cleared causes it again. Ticks are counted whether or not drive words
-//! are made. Until the first tick after a reset drives are off, too: without ticks nobody would miss the host.
+//! are made. Until the first tick after a reset drives are off, too: without ticks a silent host would go unnoticed.
 
 use super::{Controller, In, Regs};
 use hapticore_hdl::block::Interpretation;
@@ -39,7 +39,7 @@ bundle! {
 }
 
 impl Watch<Format> {
-    /// The registers, where so many silent ticks are a fault.
+    /// The registers, where `silent_ticks` silent ticks are a fault.
     pub(super) fn registers(silent_ticks: u64) -> Self {
         Watch { silent: Format::counter(silent_ticks), ticks: BIT, latched: Faults::of(BIT) }
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What usually breaks a force controller: rails, faults, rest, and what a law leaves behind.
+//! What usually breaks a force controller: rails, faults, standstill, and what a law leaves behind.
 //!
 //! One pad and its plant (`rig.rs`).
 //!
@@ -27,7 +27,7 @@ fn a_target_at_the_rail_for_any_time_leaves_nothing_behind() {
         };
         let states: Vec<_> = (0..6).map(|_| frame()).collect();
         assert_eq!(states[2], states[3], "{law:?}");
-        // Back at once, where the law's error says so; a filter needs its time.
+        // Back in the first frame, where the law's error says so; a filter needs its time.
         let first = rig.frame(0.0, 0.3).drive;
         let filters = law == Law::Proportional;
         assert!(
@@ -188,7 +188,7 @@ fn a_drive_that_is_switched_off_and_on_comes_back_no_faster_than_its_slew() {
     }
 }
 
-/// A loop at rest has no limit cycle, in any number of frames: its drive word toggles by one at most.
+/// A settled loop has no limit cycle, in any number of frames: its drive word toggles by one at most.
 /// The law with a large gain and no filter has one.
 #[test]
 fn a_loop_at_rest_stays_within_one_step_of_its_drive_word() {
@@ -205,8 +205,8 @@ fn a_loop_at_rest_stays_within_one_step_of_its_drive_word() {
     assert!(spread(&words[2000..]) > 1000, "{}", spread(&words[2000..]));
 }
 
-/// What narrowing leaves of the force at rest, beside the law in numbers without words: half a step of
-/// the force's word, which is what the measurement's own rounding leaves.
+/// What narrowing leaves of the settled force, beside the law in numbers without words: half a step of the force's
+/// word, which is what the measurement's own rounding leaves.
 #[test]
 fn rounding_leaves_half_a_step_of_the_force_at_most() {
     for law in [Law::Proportional, Law::Integral] {
@@ -225,7 +225,7 @@ fn rounding_leaves_half_a_step_of_the_force_at_most() {
     }
 }
 
-/// The force at which the law's equations and the plant rest, N.
+/// The force at which the law's equations and the plant settle, N.
 fn at_rest(law: Law, control: &Control, target_n: f64) -> f64 {
     if law == Law::Integral {
         return target_n;

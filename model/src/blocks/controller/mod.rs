@@ -33,12 +33,12 @@
 //! to even.
 
 //! **Safe state.** A pad's last drive word, its correction and its count of invalid estimates are in memories, which no
-//! reset clears. They count only where the pad is known: a mark per pad, set with its drive word. The marks go with a
-//! reset and in every clock that is off: `clear`, a drive that is not enabled, a fault, a curve of which not every word
-//! has been written since the reset, ticks that have not begun. While off the drive is zero, and a drive word that
-//! was under way is zero; a drive then begins at zero, within slew, its correction at zero. Slew limits no other
-//! fall: with a slew of zero a drive stays where it is, and what is off is zero all the same. In laws with an error, s is so fine that the roots of two forces are never the same, for a
-//! loop rests wherever its error is zero.
+//! reset clears. They count only where the pad is known: a mark per pad, set with its drive word. A reset clears the
+//! marks, and so does every clock that is off. Off is: `clear`, a drive that is not enabled, a fault, a curve that has
+//! not been written completely since the reset, or ticks that have not begun. While off the drive is zero, and a drive
+//! word in progress becomes zero; a drive then begins at zero, within slew, its correction at zero. Slew limits no
+//! other fall: with a slew of zero a drive stays where it is, and what is off is zero all the same. In laws with an
+//! error, s is so fine that the roots of two forces are never the same, for a loop settles wherever its error is zero.
 //!
 //! One multiplier, one square root and one divider serve all steps. Latency: the sum of the law's
 //! tasks and a clock, from `start` to `done`.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! One pad of a controller in the words of `standard`, and its plant: a gap that follows the square of the drive,
-//! C → 300 pF·(1 + d²/2), a fifth of the way with each frame, F = k·(C·d)².
+//! One pad of a controller in the words of `standard`, and its plant. The plant is a gap that follows the square of the
+//! drive: C → 300 pF·(1 + d²/2), a fifth of the way with each frame, F = k·(C·d)².
 
 use super::{Controller, Inputs, Outputs};
 use crate::fidelity::force_loop::{curve_writes, tuning_codes};
@@ -15,7 +15,7 @@ const STEP_PF: f64 = 1.0 / 1_048_576.0;
 /// Frames within which a state comes back.
 const MOST_FRAMES: usize = 50_000;
 
-/// k of the plant, N/pF²: 0.36 N at full drive and rest.
+/// k of the plant, N/pF²: 0.36 N at full drive, settled.
 pub const FORCE_GAIN: f64 = 4e-6 / 2.25;
 
 /// A controller of one pad.
@@ -106,7 +106,7 @@ impl Rig {
         (force_n, self.frame(target_n, force_n).drive)
     }
 
-    /// Drive words of so many frames of the closed loop.
+    /// Drive words of `frames` frames of the closed loop.
     pub fn drives(&mut self, target_n: f64, frames: usize) -> Vec<i64> {
         (0..frames).map(|_| self.closed(target_n).1).collect()
     }
@@ -139,13 +139,13 @@ impl Rig {
         panic!("no state comes back within {MOST_FRAMES} frames");
     }
 
-    /// The drive word at which the closed loop rests, at 0.1 N.
+    /// The drive word at which the closed loop settles, at 0.1 N.
     pub fn settled(&mut self) -> i64 {
         *self.drives(0.1, 2000).last().expect("frames")
     }
 
-    /// Holds that the loop rests at the force of a drive word: the integral law takes what is within
-    /// a step of the force's word for its target, on either side.
+    /// Holds that the loop settles at the force of a drive word: the integral law takes what is within a step of the
+    /// force's word for its target, on either side.
     pub fn assert_same(&mut self, word: i64) {
         let settled = self.settled();
         let off_n = 2.0 * 0.1 * (settled - word) as f64 / word as f64;

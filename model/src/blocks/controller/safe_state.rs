@@ -8,7 +8,7 @@ use hapticore_contract::control::Law;
 /// Frames in which a drive shows what is left of what was before.
 const FRAMES: usize = 40;
 
-/// A rig at rest with a drive, and a slew limit from now on.
+/// A settled rig with a drive, and a slew limit from now on.
 fn driven(law: Law, slew: i64) -> Rig {
     let mut rig = Rig::new(law, |_| ());
     assert!(rig.settled() > 0, "{law:?}");
@@ -83,7 +83,7 @@ fn the_integral_restarts() {
     }
 }
 
-/// A frame after something that is to take the drive to zero at once, with a slew of 0.
+/// A frame after an event that must take the drive to zero immediately, with a slew of 0.
 fn stopped(law: Law, how: impl FnOnce(&mut Rig) -> Outputs<i64>) -> (Rig, i64) {
     let mut rig = driven(law, 0);
     let drive = how(&mut rig).drive;

@@ -58,13 +58,13 @@ impl Task {
 }
 
 impl Controller {
-    /// Whether the law has this task, and it is under way.
+    /// Whether the law has this task, and it is in progress.
     #[inline(always)]
     pub(super) fn at<V: Interpretation>(&self, r: &Regs<V>, task: Task) -> Signal<V> {
         if Task::of(self.law).contains(&task) { r.task.at(task) } else { bit(false) }
     }
 
-    /// Whether one of the law's tasks is under way for which `which` holds.
+    /// Whether one of the law's tasks for which `which` holds is in progress.
     #[inline(always)]
     fn any<V: Interpretation>(&self, r: &Regs<V>, which: impl Fn(Task) -> bool) -> Signal<V> {
         let tasks = Task::of(self.law).iter().filter(|task| which(**task));

@@ -243,7 +243,7 @@ fn a_silence_is_over_once_it_is_cleared_and_the_host_is_heard() {
     assert_eq!(clock(Inputs { alive: 1, ..clears }), 0);
 }
 
-/// Roots and quotients at once change no drive word, and the clocks alone.
+/// Roots and quotients computed within a clock change no drive word, only the clocks.
 #[test]
 fn a_hurried_controller_has_the_drive_words_of_the_law_earlier() {
     for (seed, profile) in profiles() {

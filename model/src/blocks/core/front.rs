@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Multiplexer, oscillator and demodulator, clocked by themselves while the estimator takes nothing from them.
 //!
-//! Of the demodulator's outputs only `channel` goes on being used, and that depends on the step alone. So samples are
-//! taken at once (`demodulator/at_once.rs`), with `channel` in each of their clocks, but for the last one: its clocks are
-//! carried out, and leave every register as if all had been.
+//! Of the demodulator's outputs only `channel` goes on being used, and that depends on the step alone. So the
+//! demodulator takes all samples but the last in one step (`demodulator/at_once.rs`), with `channel` in each of their
+//! clocks. The last sample's clocks are carried out, and leave every register as if all had been.
 
 use super::observer::Observer;
 use super::{Core, Outputs};
@@ -26,9 +26,9 @@ pub(super) struct Front<'a> {
     pub demodulator: &'a mut State<Demodulator, Clocked>,
     /// The channel that was asked for last.
     pub channel: Signal<Clocked>,
-    /// The demodulator rests, and has asked for that channel since.
+    /// The demodulator is idle, and has asked for that channel since.
     pub rests: bool,
-    /// The sample that the demodulator takes at once, while its clocks go by.
+    /// The sample that the demodulator takes in one step, while its clocks go by.
     pub passing: Option<Passing>,
     /// What the estimator gives all the while.
     pub estimator: estimator::Out<Clocked>,
@@ -39,7 +39,7 @@ pub(super) struct Front<'a> {
     pub later: u64,
 }
 
-/// A sample that the demodulator takes at once.
+/// A sample that the demodulator takes in one step.
 #[derive(Clone, Copy)]
 pub(super) struct Passing {
     /// First sample of its window.
@@ -77,7 +77,7 @@ impl Front<'_> {
         }
     }
 
-    /// The clocks of a sample in which multiplexer and oscillator rest.
+    /// The clocks of a sample in which multiplexer and oscillator are idle.
     #[inline(always)]
     fn behind(
         &mut self,
@@ -100,7 +100,7 @@ impl Front<'_> {
         self.core.multiplexer.clock(&mut self.multiplexer, inputs)
     }
 
-    /// What the oscillator is given of what the multiplexer gives.
+    /// The oscillator's inputs, from the multiplexer's outputs.
     #[inline(always)]
     fn given(slot: &multiplexer::Out<Clocked>) -> oscillator::In<Clocked> {
         oscillator::Inputs { sample: slot.sample, restart: slot.restart, first: slot.first }
@@ -146,14 +146,14 @@ impl Front<'_> {
         self.observe(slot, wave, observer);
     }
 
-    /// Whether a sample that starts now may be taken at once: the next one starts within the clocks to come, and the
-    /// rest of its clocks is carried out in any case.
+    /// Whether the demodulator may take a sample that starts now in one step: the next one starts within the clocks to
+    /// come, and its remaining clocks are carried out in any case.
     #[inline(always)]
     fn lets_pass(&self) -> bool {
         self.left + self.later > self.core.pace.clocks()
     }
 
-    /// Clocks of a sample that is taken at once, `most` at most: in the first of them the oscillator's words are there.
+    /// Clocks of a sample taken in one step, `most` at most: in the first of them the oscillator's words are there.
     #[inline(always)]
     fn pass(
         &mut self,

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Whoever looks at a core that is given whole samples.
+//! The observer of a core that is clocked in whole samples.
 
 use super::Outputs;
 use hapticore_hdl::signal::{Clocked, Signal};
 
-/// Who looks at the outputs of a core, clock by clock.
+/// Receives the outputs of a core, clock by clock.
 pub trait Observer {
     /// The outputs of a clock.
     fn outputs(&mut self, outputs: Outputs<Signal<Clocked>>);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A core that is given whole samples: which of its blocks are under way is asked once for many clocks.
+//! A core clocked in whole samples: one check for many clocks finds which of its blocks are busy.
 //!
 //! ```text
 //! strobe       ┐________________________┐________________________┐____
@@ -9,9 +9,9 @@
 //! estimator    ███████████████████████████████████████████                one of its blocks, beside all this
 //! ```
 //!
-//! From the end of a window's read-out to the next window's last sample, the estimator is given nothing, and in most
-//! clocks one of its blocks at most is under way, so that its outputs stand still. For such clocks that block is
-//! carried out by itself (`estimator/alone.rs`), and so are the blocks before the estimator (`front.rs`), for the
+//! From the end of a window's read-out to the next window's last sample, the estimator receives nothing. In most of
+//! these clocks at most one of its blocks is busy, so that its outputs stand still. For such clocks that block is
+//! clocked by itself (`estimator/alone.rs`), and so are the blocks before the estimator (`front.rs`), for the
 //! demodulator gives no sum. All other clocks are those of [`Core::clock`].
 
 use super::front::Front;
@@ -60,8 +60,8 @@ impl Core {
         }
     }
 
-    /// Clocks from a strobe on, of `most` samples at most, in which the estimator gives nothing and is given nothing:
-    /// it is clocked through them.
+    /// Clocks from a strobe on, of `most` samples at most, in which the estimator receives and gives nothing: it is
+    /// clocked through them.
     #[inline(always)]
     fn clocks_apart(&self, state: &mut State<Self, Clocked>, i: &In<Clocked>, most: u64) -> u64 {
         let within = &mut state.submodules;
@@ -88,7 +88,7 @@ impl Core {
         self.estimator.held(&state.submodules.estimator, &nothing)
     }
 
-    /// So many clocks of what is before the estimator, which gives the same all the while; `code` has a code's format.
+    /// Clocks of the blocks before the estimator, which gives the same all the while; `code` has a code's format.
     ///
     /// Not inlined: what it borrows is then known to be apart, and its loops have the processor's registers to
     /// themselves.

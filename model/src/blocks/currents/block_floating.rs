@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Block-floating words: those of all terminals are moved up by as many bits as the largest leaves,
-//! those of the sensing voltage by as many as theirs leave; at the end total and sensing voltage
+//! Block-floating words. Those of all terminals are moved up by as many bits as the largest leaves,
+//! those of the sensing voltage by as many as theirs leave. At the end total and sensing voltage
 //! are moved back to one point.
 //!
 //! ```text
@@ -51,7 +51,7 @@ impl Currents {
         (sign & !next) | (next & !sign)
     }
 
-    /// A clock before the loop over channels: words are looked at one after the other, then moved.
+    /// A clock before the loop over channels: words are scanned one after the other, then moved.
     #[inline(always)]
     pub(super) fn align<V: Interpretation>(&self, r: Regs<V>, word: Signal<V>) -> Regs<V> {
         use Step::*;
@@ -140,7 +140,7 @@ impl Currents {
         }
     }
 
-    /// An amplitude as it is given out, and whether it is saturated.
+    /// An amplitude in its output format, and whether it is saturated.
     #[inline(always)]
     pub(super) fn rounded<V: Interpretation>(
         &self,

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A sample at once: what its clocks leave to the next, where of the outputs only `channel` is used meanwhile.
+//! A sample in one step: what its clocks leave to the next, where of the outputs only `channel` is used meanwhile.
 //!
 //! A sample leaves its share of the sums, what rounding leaves over, whether a code was at full scale, and which sums
-//! have begun. All other registers are the pipeline's, which the next sample's clocks write anew: samples may be
-//! taken at once if the clocks of one behind them are carried out. Products, roundings and sums are the functions
-//! that the clocks use.
+//! have begun. All other registers are the pipeline's, which the next sample's clocks write anew: samples may take one
+//! step each if the clocks of one behind them are carried out. Products, roundings and sums are the functions that the
+//! clocks use.
 
 use super::polyphase::PRODUCT;
 use super::{Demodulator, Polyphase, Registers, Regs};
@@ -12,7 +12,7 @@ use crate::blocks::oscillator;
 use hapticore_hdl::block::State;
 use hapticore_hdl::signal::{Clocked, Signal, bit, int};
 
-/// A sample that is taken at once.
+/// A sample that the demodulator takes in one step.
 pub(in crate::blocks) struct Sample<'a> {
     /// Whether it is its window's first.
     pub first: Signal<Clocked>,
@@ -36,7 +36,7 @@ impl Demodulator {
         self.channel(bit(busy), int(if busy { clock } else { 0 }))
     }
 
-    /// Takes a sample at once.
+    /// Takes a sample in one step.
     #[inline(never)]
     pub(in crate::blocks) fn take_sample(
         &self,

@@ -48,9 +48,9 @@ const LIMB: u8 = 16;
 /// Clocks of a product of the read-out: address, operands, product, sum.
 const BEATS: u64 = 4;
 
-/// Cosine and sine of the five phases, times 57230: of all even numbers below 2^16 that one for
-/// which these are nearest to whole numbers, the cosines' sum zero, and the negative ones' sum a
-/// multiple of four.
+/// Cosine and sine of the five phases, times 57230. Of all even numbers below 2^16, 57230 brings
+/// these nearest to whole numbers, with the cosines' sum zero and the negative ones' sum a multiple
+/// of four.
 const WAVES: [[i64; PHASES as usize]; 2] =
     [[57230, 17685, -46300, -46300, 17685], [0, 54429, 33639, -33639, -54429]];
 /// What the waves have for one.

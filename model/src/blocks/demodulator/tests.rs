@@ -153,8 +153,8 @@ fn check_steps(bench: &mut Bench<Demodulator>) {
     assert_eq!(register.format, Format::counter(last as u64), "step {last} is the last");
 }
 
-/// As narrow as the largest products let it be. By phase, two products more are looked at; a tapered
-/// window's first word is zero.
+/// As narrow as the largest products let it be. By phase, two products more are counted; a tapered window's first word
+/// is zero.
 #[test]
 fn sums_have_the_bits_that_the_largest_products_need() {
     for profile in Profile::all() {

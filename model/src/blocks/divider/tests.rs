@@ -42,7 +42,7 @@ fn check_divider(numerator: &str, denominator: &str, quotient: &str) {
     }
 }
 
-/// Divides, and looks at every register on every clock.
+/// Divides, and checks every register on every clock.
 fn divide(
     bench: &mut Bench<Divider>,
     numerator: i64,
@@ -58,7 +58,7 @@ fn divide(
         start = 0;
         bench.check_registers();
         let r = &bench.state.registers;
-        // In the clock after the start it is looked at whether the quotient fits.
+        // In the clock after the start the divider determines whether the quotient fits.
         let below = r.count == 0 || r.remainder < denominator || r.over == 1;
         assert!(
             below,

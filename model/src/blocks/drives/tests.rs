@@ -153,7 +153,7 @@ impl Twins {
     }
 }
 
-/// Gains, limits, and what walls are made of, are those of the clock in which the estimate is given.
+/// Gains, limits, and what walls are made of, are those of the clock in which the estimate comes.
 #[test]
 fn settings_after_the_estimate_change_no_drive_word() {
     let direct = |wall: profile::Wall| Some(profile::Wall { rule: Release::Direct, ..wall });
@@ -298,7 +298,7 @@ impl Driven {
         self.bench.clock(told);
     }
 
-    /// The drive word after a pad's estimates; in so many clocks from the last one on these inputs.
+    /// The drive word after a pad's estimates; `late` has the inputs of each clock from the last one on.
     fn frame_with(&mut self, pad: u64, late: impl Fn(u64) -> Inputs<i64>) -> i64 {
         let mut drive = None;
         for part in 0..self.parts {

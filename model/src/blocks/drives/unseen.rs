@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Drives at which nobody looks between drive words: clocks in which they rest are left out.
+//! Drives observed at their drive words only: clocks in which they are idle are skipped.
 
 use super::{Drives, In, Out, TargetPort};
 use crate::blocks::rests::Rests;
@@ -7,7 +7,7 @@ use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::signal::is_set;
 
 impl Drives {
-    /// Whether a drive word is under way: else, given nothing, a clock changes nothing.
+    /// Whether a drive word is in progress: else, without inputs, a clock changes nothing.
     #[inline(always)]
     fn is_busy<V: Interpretation>(&self, state: &State<Self, V>) -> bool {
         let (r, within) = (state.load(self), &state.submodules);
@@ -28,8 +28,8 @@ impl Drives {
         !given.into_iter().chain(written).chain(clears).any(is_set)
     }
 
-    /// A clock for whoever looks at drive words as they are given and at nothing else: its outputs, or nothing where
-    /// it would change nothing.
+    /// A clock for a caller that uses each drive word as it comes and nothing else: its outputs, or nothing where it
+    /// would change nothing.
     #[inline(always)]
     pub(crate) fn clock_unseen<V: Interpretation>(
         &self,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Clocks of the estimator in which one of its blocks is all that is under way: most of those outside a window.
+//! Clocks of the estimator in which only one of its blocks is busy: most of those outside a window.
 
 use super::{Estimator, In, Out, Regs, TablePort, capacitance, currents, position, ratio};
 use crate::blocks::rests::Rests;
@@ -26,8 +26,8 @@ fn clock_alone<B: Block>(
 }
 
 impl Estimator {
-    /// Clocks, `most` at most, in which nothing is given, and at most one block is under way: how many there were.
-    /// Outputs are [held](Self::held). `gain` is the calibration's, of the capacitance.
+    /// Clocks, `most` at most, without inputs, while at most one block is busy: how many there were. Outputs are
+    /// [held](Self::held). `gain` is the calibration's, of the capacitance.
     #[inline(never)]
     pub(in crate::blocks) fn run_alone(
         &self,
@@ -57,7 +57,7 @@ impl Estimator {
         }
     }
 
-    /// Whether a block is under way that has no clocks alone.
+    /// Whether a block is busy that has no clocks alone.
     fn others_are_busy(&self, state: &State<Self, Clocked>) -> bool {
         let within = &state.submodules;
         let by_eq8 = self.force_estimator.as_ref().zip(within.force_estimator.as_ref());
@@ -108,13 +108,13 @@ impl Estimator {
         clock_alone(&self.capacitance, &mut within.capacitance, inputs, most, |r| r.done != 0)
     }
 
-    /// What the currents give while they rest.
+    /// The outputs of the currents while they are idle.
     fn currents_held(&self, state: &mut State<Self, Clocked>) -> currents::Out<Clocked> {
         let nothing = currents::Inputs::map(self.currents.inputs(), zero);
         self.currents.clock(&mut state.submodules.currents, nothing)
     }
 
-    /// The outputs while at most one block is under way, and gives no results.
+    /// The outputs while at most one block is busy, and gives no results.
     #[inline(always)]
     pub(in crate::blocks) fn held(
         &self,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Blocks of the estimator that run through their clocks as they are started, for fidelity `fixed`: of a
-//! slot's clocks each then looks at one block instead of all.
+//! Blocks of the estimator that run through their clocks as they are started, for fidelity `fixed`: each of a slot's
+//! clocks then evaluates one block instead of all.
 //!
 //! The clocks are the blocks' own, one after the other; their inputs are stable until they are done. Only
 //! where every bit is known is it known that a block has been started.

@@ -34,8 +34,8 @@ fn latency_is_the_clocks_measured() {
     }
 }
 
-/// Sums of all channels for a pad, one after the other, then so many clocks: the pads of frames that are finished, each with
-/// the words.
+/// Sums of all channels for a pad, one after the other, then `clocks` clocks: the pads of frames that are finished,
+/// each with the words.
 fn frames_of(
     bench: &mut Bench<Estimator>,
     profile: &Profile,
@@ -88,7 +88,7 @@ fn sums_that_come_before_the_last_frame_are_dropped_once() {
     }
 }
 
-/// Pad and flag of the last window stay on the outputs while nothing is under way.
+/// Pad and flag of the last window stay on the outputs while the estimator is idle.
 #[test]
 fn clocks_that_are_skipped_give_out_what_others_do() {
     for mut profile in Profile::of_distinct_words() {

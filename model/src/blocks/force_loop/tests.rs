@@ -160,7 +160,7 @@ fn a_drive_word_within_the_next_window_is_refused() {
     assert!(met.iter().all(|&count| count > 0), "{met:?}");
 }
 
-/// The drive word after a target of this code that is written so many clocks after the last strobe.
+/// The drive word after a target of this code that is written `written` clocks after the last strobe.
 fn after(profile: &Profile, target: i64, written: u64) -> i64 {
     let mut bench = Bench::new(ForceLoop::try_new(profile).unwrap());
     let mut quiet = touching(&bench.block);
@@ -175,7 +175,7 @@ fn after(profile: &Profile, target: i64, written: u64) -> i64 {
         bench.clock(write);
     }
     bench.clock(Inputs { tick: 1, ..quiet });
-    // A target while nothing happens, then the one that is late.
+    // A target while nothing happens, then the late one.
     let write = |word: i64| {
         let mut inputs = quiet;
         (inputs.target.target_write, inputs.target.target_word) = (1, word);
@@ -185,7 +185,7 @@ fn after(profile: &Profile, target: i64, written: u64) -> i64 {
     slot(&mut bench, profile, quiet, |clock| if clock == written { write(target) } else { quiet }).1
 }
 
-/// The drive word of a frame whose rail becomes `rail` so many clocks after the last strobe.
+/// The drive word of a frame whose rail becomes `rail`, `written` clocks after the last strobe.
 fn after_rail(profile: &Profile, rail: i64, written: u64) -> i64 {
     let mut bench = Bench::new(ForceLoop::try_new(profile).unwrap());
     let mut quiet = touching(&bench.block);
@@ -213,8 +213,8 @@ fn after_rail(profile: &Profile, rail: i64, written: u64) -> i64 {
     slot(&mut bench, profile, quiet, late).1
 }
 
-/// Gains and limits count from the frame on in which they are there when the estimate is given: changed
-/// in any clock after it, they leave its drive word as it was.
+/// Gains and limits count from the frame on in which they are there when the estimate comes: changed in any clock after
+/// it, they leave its drive word as it was.
 #[test]
 fn settings_that_change_in_mid_frame_are_taken_with_the_next() {
     let profile = controlled(Law::Open).next().expect("a profile");
@@ -262,8 +262,8 @@ fn extremes_are_those_since_they_were_read() {
     assert_eq!(bench.clock(quiet).extremes.extremes_valid, 0, "read");
 }
 
-/// A target counts from the frame on in which it is there when the estimate is given: written in
-/// any clock, it gives the old drive word or the new one, and never a mixture.
+/// A target counts from the frame on in which it is there when the estimate comes: written in any
+/// clock, it gives the old drive word or the new one, and never a mixture.
 #[test]
 fn a_target_that_is_written_in_mid_frame_is_taken_whole_or_not_at_all() {
     let profile = controlled(Law::Open).next().expect("a profile");

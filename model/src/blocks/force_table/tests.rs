@@ -20,7 +20,7 @@ use std::cell::RefCell;
 /// Tables that follow one another.
 const TABLES: u64 = 40;
 
-/// Every bundled profile with a controller, which is given an estimate before the frame's.
+/// Every bundled profile with a controller, which receives an estimate before the frame's.
 fn with_prompts() -> impl Iterator<Item = Profile> {
     let control = |profile: &Profile| Some(Control::of(profile, Law::Inverse));
     Profile::all().into_iter().map(move |profile| Profile { control: control(&profile), ..profile })
@@ -178,8 +178,8 @@ fn a_root_of_too_many_digits_is_refused() {
     }
 }
 
-/// Three words of a row, sixteen times their fraction at most, of which one is added as it is, one times a voltage, and one times a
-/// difference of two; rows to the last, and no twice as many.
+/// Three words of a row, sixteen times their fraction at most: one is added as it is, one times a voltage, and one
+/// times a difference of two. Rows to the last, and no twice as many.
 #[test]
 fn sums_and_rows_have_the_range_of_the_table() {
     for profile in Profile::of_distinct_words() {

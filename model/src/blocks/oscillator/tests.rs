@@ -23,8 +23,8 @@ fn waves_are_those_of_the_table_at_the_phase() {
     }
 }
 
-/// At a twelfth of a turn and at a sixth of a window a word is ½, ¼ or ¾ of the amplitude: half way
-/// between two codes where the amplitude is no multiple of four.
+/// At a twelfth of a turn and at a sixth of a window a word is ½, ¼ or ¾ of the amplitude. That is
+/// half way between two codes where the amplitude is no multiple of four.
 #[test]
 fn waves_half_way_between_two_codes_are_the_even_ones() {
     for (seed, (name, samples)) in (0..).zip([("standard", 24), ("small", 60), ("small", 120)]) {
@@ -79,7 +79,7 @@ fn a_window_that_begins_anew_depends_on_no_window_before() {
     }
 }
 
-/// Holds so many samples, begun anew at random, to the reference.
+/// Compares `samples` samples, begun anew at random, with the reference.
 fn check_waves(profile: &Profile, seed: u64, samples: u64) {
     let (mut waves, mut random) = (Waves::new(profile), Random::new(seed));
     for sample in 0..samples {

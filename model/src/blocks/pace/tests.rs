@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Pace: a strobe within the clocks of the one before is told until it is cleared.
+//! Pace: a strobe within the clocks of the one before is reported until it is cleared.
 
 use super::{Inputs, Pace};
 use crate::support::random::Random;

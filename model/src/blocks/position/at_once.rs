@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The program's results without its clocks: most of a slot's clocks are the program's, and two in three of those wait
-//! for products. Fidelity `fixed` has all of it at once, `clock` what lies between two jumps (`leaps.rs`).
+//! for products. Fidelity `fixed` computes all of it in one step, `clock` the part between two jumps (`leaps.rs`).
 //!
 //! Its jumps are followed once for all slots (`trace.rs`). Instructions are as `instruction.rs` says, on
 //! raw codes. `fixed` and `clock` are held to be equal to the bit.

@@ -12,41 +12,41 @@
 /// memory.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Operation {
-    /// left ← slot
+    /// left ← slot.
     Load,
-    /// left ← slot, without its fraction of a cell
+    /// left ← slot, without its fraction of a cell.
     LoadCell,
-    /// left ← the digits of a quotient
+    /// left ← the digits of a quotient.
     LoadQuotient,
-    /// sum ← sum + left · slot
+    /// sum ← sum + left · slot.
     Multiply,
-    /// sum ← sum + table[base + option] · slot
+    /// sum ← sum + table[base + option] · slot.
     MultiplyTable,
-    /// A digit of the quotient is set where sum ≥ 0; left ← slot, or the one after it where sum < 0
+    /// A quotient digit is set where sum ≥ 0; left ← slot, or the one after it where sum < 0.
     LoadDigit,
     /// slot ← sum, rounded and saturated, or with [`WRAP`] not saturated; [`CHECK`] compares it
-    /// with the tolerance, [`OPEN`] with zero; sum ← 0
+    /// with the tolerance, [`OPEN`] with zero; sum ← 0.
     Store,
-    /// base ← sum, as an integer
+    /// base ← sum, as an integer.
     Base,
     /// slot ← half of the surface's ratio, or with [`SHARE`] of the least current's share; with
-    /// [`LOW`] what rounding left
+    /// [`LOW`] what rounding left.
     Input,
-    /// x, y or R, by the surface ← sum; sum ← 0
+    /// x, y or R, by the surface ← sum; sum ← 0.
     Output,
     /// With [`COUNT`] the counter takes the value, with [`SURFACE`] the surface is that of r_x,
-    /// with [`SCALARS`] base ← the surface's scalars
+    /// with [`SCALARS`] base ← the surface's scalars.
     Set,
-    /// Where the counter is not zero: one less, and on at the target
+    /// Where the counter is not zero: one less, and on at the target.
     Repeat,
     /// For the surface of r_x: that of r_y follows, and on at the target; after that of r_y again
-    /// that of r_x, or R when found
+    /// that of r_x, or R when found.
     Surfaces,
-    /// One step more; on at the target while there are steps left
+    /// One step more; on at the target while there are steps left.
     Pass,
-    /// On at the target when all steps are done
+    /// On at the target when all steps are done.
     Found,
-    /// The last
+    /// The last instruction.
     End,
 }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The program from one of its jumps to a later one at once, where nobody looks at the clocks between.
+//! The program from one of its jumps to a later one in one step, where no caller observes the clocks between.
 //!
 //! Control does not depend on data: at a jump the registers of control hold the same in each run, and one run is
-//! recorded. If nothing is under way there, a run's data are its words, the base, the quotient and the outputs; the
-//! instructions between two jumps make new ones of them as in `at_once.rs`. Operands and products from before a jump are
-//! not known after a leap; the program replaces them within a few clocks, which are carried out.
+//! recorded. If no operation is in progress there, a run's data are its words, the base, the quotient and the outputs;
+//! the instructions between two jumps make new ones of them as in `at_once.rs`. Operands and products from before a
+//! jump are not known after a leap; the program replaces them within a few clocks, which are carried out.
 
 use super::at_once::{Followed, Placed};
 use super::trace::Jump;

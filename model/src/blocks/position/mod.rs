@@ -14,7 +14,8 @@
 //! resistances in series span a hundredth of the range.
 //!
 //! A slot has tens of thousands of clocks for a thousand products, so that one multiplier and one
-//! adder do them all, by a program (`program.rs`) of instructions (`instruction.rs`) in a memory:
+//! adder suffice. They follow a program (`program.rs`) of instructions (`instruction.rs`) in a
+//! memory:
 //!
 //! ```text
 //! program ─[instruction]─┬─ base + option ─ table ───┐
@@ -214,7 +215,7 @@ impl<V: Interpretation> Decoded<V> {
 impl Position {
     /// Normalised ratios at the place found and measured ones agree within `2^-TOLERANCE_BITS`.
     pub const TOLERANCE_BITS: u8 = 9;
-    /// A step moves by less than so many cells along either axis.
+    /// A step moves by less than this number of cells along either axis.
     pub const STEP_CELLS: f64 = program::STEP as f64;
 
     /// The position of a profile, with nothing in its table yet.
@@ -393,7 +394,7 @@ impl Position {
             index.bits(0, 1).select(of_pair, by(r.count)),
             index.bits(0, 1).select(of_surface, is(Operation::LoadDigit).select(of_sign, by(none))),
         );
-        // Groups are aligned: their words are told apart by the low bits alone.
+        // Groups are aligned: the low bits alone tell their words apart.
         let low = bits_or(group.bits(0, 4), of_index.named("of_group"));
         let slot = group.bits(4, instruction::SLOT_BITS - 4).concat(low);
         Decoded { operation, option, done, slot: slot.named("slot") }
@@ -648,7 +649,7 @@ impl Position {
         }
     }
 
-    /// The registers that are given out.
+    /// The output registers.
     #[inline(always)]
     fn give_out<V: Interpretation>(
         &self,

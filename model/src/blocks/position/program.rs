@@ -78,7 +78,7 @@ const SLOTS: usize = 2 * VARIABLES as usize;
 /// Products of the gain and of the first guess that are summed up.
 const GAINS: u8 = 32;
 const STARTS: u8 = 4;
-/// The determinant is stored by so many times itself; so many cells a step is shorter than.
+/// The determinant is stored times this number; a step is shorter than this number of cells.
 pub(super) const STEP: u8 = 4;
 /// Turns of −8 that take a place's fraction of a cell to the whole of a word: 64 of them.
 const TURN: u8 = 8;
@@ -140,7 +140,7 @@ pub struct Executed<'a> {
 }
 
 impl Executed<'_> {
-    /// Its clocks, where a product takes so many from its operands' clock.
+    /// Its clocks, where a product takes `product` clocks from its operands' clock.
     pub fn clocks(&self, product: u64) -> u64 {
         let own = if self.instruction.waits() { 2 + product } else { 1 };
         own + u64::from(self.jumps)
@@ -237,16 +237,16 @@ impl Program {
         Program { instructions: w.instructions, digits }
     }
 
-    /// Clocks from the first instruction to the last, where a product takes so many from its
-    /// operands' clock.
+    /// Clocks from the first instruction to the last, where a product takes `product` clocks from
+    /// its operands' clock.
     pub fn clocks(&self, steps: u64, product: u64) -> u64 {
         let mut clocks = 0;
         self.execute(steps, |executed| clocks += executed.clocks(product));
         clocks
     }
 
-    /// Shows each instruction as it is executed, up to the last, with so many steps. Control does not
-    /// depend on data, so that following it is enough.
+    /// Shows each instruction of a program of `steps` steps as it is executed, up to the last. Control does not depend
+    /// on data, so that following it is enough.
     pub fn execute(&self, steps: u64, mut show: impl FnMut(Executed)) {
         let (mut at, mut count, mut surface, mut step) = (0, 0, 0, 0);
         loop {
@@ -287,7 +287,7 @@ fn open_terminal(w: &mut Writer) {
     w.add(Store, SPARE, OPEN);
 }
 
-/// r ← [32·gain·([r/2 − centre] + what the rounding of r/2 left)]
+/// r ← [32·gain·([r/2 − centre] + what the rounding of r/2 left)].
 fn normalise(w: &mut Writer) {
     w.add(Set, at(0), SCALARS);
     w.add(Input, RATIO.of_surface(), 0);
@@ -305,7 +305,7 @@ fn normalise(w: &mut Writer) {
     w.store(RATIO.of_surface()); //                                                  r
 }
 
-/// The first guess: u ← [4·(constant + rise · r)]
+/// The first guess: u ← [4·(constant + rise · r)].
 fn start(w: &mut Writer) {
     w.add(Set, at(0), SCALARS);
     w.repeat(STARTS, |w| {

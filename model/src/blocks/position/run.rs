@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The program by itself: clock by clock to one of its jumps, and from there to the last one at once.
+//! The program by itself: clock by clock to one of its jumps, and from there to the last one in one step.
 
 use super::{In, Position};
 use hapticore_hdl::block::{Block, State};

@@ -2,9 +2,9 @@
 //! The program as it is run: its jumps followed and its slots known, for control does not depend on
 //! data.
 //!
-//! What instructions do between two that look at the sum is a list of terms, times · left · right; terms
-//! that are the same are one. Both factors are words of one memory: the scratch memory, and behind it
-//! what the table and the two loads that change a word give.
+//! What instructions do between two that use the sum is a list of terms, times · left · right; terms that are the same
+//! are one. Both factors are words of one memory: the scratch memory, and behind it what the table and the two loads
+//! that change a word give.
 
 use super::instruction::{Index, Instruction, Operation, SCALARS, SLOT_BITS};
 use super::program::{Executed, Program};
@@ -21,7 +21,7 @@ pub(super) const CELL: u8 = TABLE_SCALARS + 2 * Layout::SCALARS as u8;
 /// The digits of a quotient, as a word.
 pub(super) const QUOTIENT: u8 = CELL + 1;
 
-/// A product, so many times, that is added to the sum.
+/// A product that is added to the sum `times` times.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Term {
     pub left: u8,
@@ -40,8 +40,7 @@ pub(super) enum Then {
     Row,
     /// The cell's word ← slot, without its fraction of a cell.
     Cell { slot: u8 },
-    /// A digit for each of so many powers, from the first downwards: sum += pair's word by the sum's
-    /// sign · power.
+    /// A digit for each of `count` powers, from the first downwards: sum += pair's word by the sum's sign · power.
     Digits { pair: u8, first: u8, count: u8 },
     /// The quotient's word ← its digits.
     Quotient,
@@ -51,15 +50,15 @@ pub(super) enum Then {
     Output { surface: u8 },
 }
 
-/// So many of the terms that are next, and what follows them.
+/// The next `terms` terms, and what follows them.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Statement {
     pub terms: usize,
     pub then: Then,
 }
 
-/// A jump that a program makes while nothing is under way: all products are in the sum, and that has been stored. No
-/// program goes on after one with a row, a cell or a quotient that it has read before.
+/// A jump that a program makes while no operation is in progress: all products are in the sum, and that has been
+/// stored. No program goes on after one with a row, a cell or a quotient that it has read before.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Jump {
     /// Clocks up to it, without that which it adds.
@@ -96,7 +95,7 @@ struct Tracer {
 }
 
 impl Trace {
-    /// The program with so many steps, where a product takes so many clocks from its operands'.
+    /// The program with `steps` steps, where a product takes `product` clocks from its operands'.
     pub fn of(program: &Program, steps: u64, product: u64) -> Self {
         let (mut tracer, mut clocks) = (Tracer::default(), 0);
         let [mut loads, mut products] = [Vec::new(), Vec::new()];

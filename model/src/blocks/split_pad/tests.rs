@@ -96,8 +96,8 @@ impl Pair {
         (0..self.axes()).for_each(|axis| self.place(pad, axis, code));
     }
 
-    /// The estimates of a pad's parts, capacitance, force and whether they are invalid: what is given
-    /// of the pad, the same to the bit, and then whether it is driven.
+    /// The estimates of a pad's parts, capacitance, force and whether they are invalid: the block's outputs for the pad
+    /// equal the reference's to the bit. `rests` says whether the pad's drive word is then zero.
     fn frame(&mut self, pad: usize, parts: &[PartCodes], rests: bool) -> Outputs<i64> {
         let mut got = None;
         for (part, &(capacitance, measured, [invalid, lifted])) in (0..).zip(parts) {

@@ -31,7 +31,7 @@ fn check_root(radicand: &str, frac: i8) {
     }
 }
 
-/// Computes a square root, and looks at every register on every clock.
+/// Computes a square root, and checks every register on every clock.
 fn take_root(bench: &mut Bench<SquareRoot>, radicand: i64) -> Outputs<i64> {
     let mut start = 1;
     loop {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The force of a push at rest, which falls where the push reads weaker: rule B.
+//! The force of a stationary push, which falls where the push reads weaker: rule B.
 //!
 //! ```text
 //! ū += (u − ū)/8;   r, d: ū and the deepest x̄ of the push, taken where PUSH is entered and outside of the wall
@@ -10,10 +10,10 @@
 //!   otherwise               gain += 1/ramp,   up to 1
 //! ```
 //!
-//! Patches that a push has pulled in stay closed when it ends, so that the level of u is lost beyond some
-//! force. Its change is not: where the push becomes weaker, u rises. The force that falls then either lets the
-//! pad slip inwards, for the hand still pushes, and is back at once; or the patches open and the direction
-//! can be read. Source: docs/physics.md §6.
+//! Patches that a push has pulled in stay closed when it ends, so that the level of u is lost beyond some force. Its
+//! change is not: where the push becomes weaker, u rises. The force that falls then either lets the pad slip inwards,
+//! for the hand still pushes, and returns immediately; or the patches open and the direction can be read. Source:
+//! docs/physics.md §6.
 //!
 //! | signal | format | unit | overflow |
 //! | ū, r | s16.16 | – | cannot: a mean |
@@ -48,7 +48,7 @@ bundle! {
 const SLOW: Format = Format::signed(16, 16);
 
 impl Wall {
-    /// The force of a push at rest may fall.
+    /// The force of a stationary push may fall.
     #[inline(always)]
     pub(super) fn fades(&self) -> bool {
         self.rule.rule == Release::Sequential && self.rule.quiet_frames > 0

@@ -9,16 +9,15 @@
 //!
 //! | wave   | level                                                     | V² in a window              |
 //! | dc     | d                                                         | constant                    |
-//! | square | ±d, turned as the pad's switch opens, every so many slots | constant where it settled   |
+//! | square | ±d, turned as the pad's switch opens, every N slots       | constant where it settled   |
 //! | sine   | d·sin φ, all pads in phase                                | right over whole periods    |
 //!
 //! A converter holds the magnitude of a level, so that its code 0, an idle pin and what it powers up with are 0 V. The
 //! sign is a pin per channel, `dac_polarity`, low for positive; it changes when the converter has the magnitude.
 //!
-//! A turn comes right after a window, with the drive word that the window leads to: it then settles
-//! while the other pads have their slots; a pad that is alone, or the first part of a split one, has its
-//! next slot at once. It costs 2τ/T of the mean of V², with τ of the pad behind its resistor and T from
-//! turn to turn.
+//! A turn comes right after a window, with the drive word that the window leads to. It then settles while the other
+//! pads have their slots; a pad that is alone, or the first part of a split one, has its next slot directly after. It
+//! costs 2τ/T of the mean of V², with τ of the pad behind its resistor and T from turn to turn.
 //!
 //! | signal    | format              | unit             | overflow                |
 //! | d         | profile (drive)     | drive's full scale | –                     |
@@ -61,7 +60,7 @@ const STALE_FRAMES: u64 = 4;
 /// The longest time without a drive word, ms, however long a frame is.
 pub const STALE_MS: u64 = 100;
 
-/// How a converter is told.
+/// The interface to a converter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Converter {
     /// One bit per pad, whose mean is the level: for a low-pass filter.
@@ -223,7 +222,7 @@ impl DriveOutput {
         block
     }
 
-    /// The output for the force loop of a profile at a clock of so many hertz.
+    /// The output for the force loop of a profile at a clock of `clock_hz` hertz.
     ///
     /// # Errors
     /// A profile without a controller; more pads than the converter has channels; drive words that come further apart than

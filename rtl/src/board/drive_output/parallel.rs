@@ -46,7 +46,7 @@ block! {
 }
 
 impl Parallel {
-    /// A line with words of so many bits.
+    /// A line with words of `bits` bits.
     ///
     /// # Panics
     /// Where a word has no or more than 24 bits.

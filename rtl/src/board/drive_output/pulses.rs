@@ -51,7 +51,7 @@ block! {
 }
 
 impl Pulses {
-    /// A modulator for so many channels of unsigned levels.
+    /// A modulator for `channels` channels of unsigned levels.
     pub fn new(channels: u64, level: Format) -> Self {
         let words = 1 << Format::counter(channels - 1).width;
         let rest = Format::unsigned(level.width, 0);

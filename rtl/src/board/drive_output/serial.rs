@@ -35,13 +35,13 @@ pub struct Frame {
     pub reference: Option<u64>,
     /// The command that writes and updates a channel.
     pub command: u64,
-    /// Bits of the command, with what nobody reads before it.
+    /// Bits of the command, with the don't-care bits before it.
     pub command_bits: u8,
     /// Bits of a channel's number.
     pub address_bits: u8,
     /// Bits of a word.
     pub word_bits: u8,
-    /// Bits behind it that nobody reads.
+    /// Don't-care bits behind it.
     pub tail_bits: u8,
     /// Channels of the converter.
     pub channels: u64,

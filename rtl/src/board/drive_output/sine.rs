@@ -52,7 +52,7 @@ block! {
 }
 
 impl Sine {
-    /// A sine of `points` points, each for so many clocks.
+    /// A sine of `points` points, each for `point_clocks` clocks.
     ///
     /// # Panics
     /// Where the points are no power of two from 8, or a point is shorter than 8 clocks.

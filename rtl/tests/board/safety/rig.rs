@@ -24,8 +24,8 @@ use std::rc::Rc;
 pub const PADS: usize = 4;
 /// The voltage of a drive word of full scale, V.
 pub const FULL_SCALE_V: f64 = 500.0;
-/// Clocks from a cause that acts at once to 0 V on every channel: a frame under way, that of the reference, one per channel,
-/// of 51 clocks each, and some to begin.
+/// Clocks from a cause that acts immediately to 0 V on every channel: a frame in progress, that of the reference, one
+/// per channel, of 51 clocks each, and some to begin.
 pub const AT_ONCE: u64 = 7 * 51 + 40;
 /// What the codes of a converter leave of a fraction.
 const ROUNDING: f64 = 2.0 / 65_536.0;
@@ -34,7 +34,7 @@ const CONVERTER: Frame = Frame::AD5664R;
 /// A pad at the pins of the ADC.
 #[derive(Debug, Clone, Copy)]
 pub struct Pad {
-    /// Its capacitance, of that at rest.
+    /// Its capacitance, as a fraction of the nominal one.
     pub share: f64,
 }
 
@@ -94,7 +94,7 @@ pub struct Rig {
     pub clock: u64,
     pub enabled: bool,
     decoder: Decoder,
-    /// Of each sample of a slot, the terminals' codes at rest and the sensing voltage's.
+    /// Of each sample of a slot, the terminals' codes at the nominal capacitance and the sensing voltage's.
     tones: Rc<Vec<Vec<f64>>>,
     /// Conversions before the slot of the first pad that began last.
     first: usize,
@@ -247,7 +247,7 @@ impl Rig {
         (0..clocks).for_each(|_| self.step(false));
     }
 
-    /// Runs so many frames of all pads.
+    /// Runs `frames` frames of all pads.
     pub fn frames(&mut self, frames: u64) {
         self.run(frames * self.frame_clocks());
     }
@@ -256,7 +256,7 @@ impl Rig {
         PADS as u64 * self.profile.slot_clocks()
     }
 
-    /// The button, for so many clocks; all commands are forgotten.
+    /// The button, for `clocks` clocks; all commands are forgotten.
     pub fn reset(&mut self, clocks: u64) {
         (self.watch.rail, self.watch.slew) = (0.0, 0.0);
         (0..clocks).for_each(|_| self.step(true));

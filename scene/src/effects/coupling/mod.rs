@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `[coupling]`: what the other pads do to the one that a slot serves.
+//! `[coupling]`: what the other pads do to the pad that a slot selects.
 //!
 //! Only the selected pad has the sensing voltage, but every pad lies on the sheet, and for the
 //! carrier the others are capacitors to ground. Where the selected pad's current lifts the sheet,
@@ -14,7 +14,7 @@
 //! | level | what | error | four pads |
 //! | --- | --- | --- | --- |
 //! | `once` | the other pads answer the selected one, not each other | second order in ωCG | 3.6 µs |
-//! | `full` | all currents at once | – | 4.6 µs |
+//! | `full` | all currents together | – | 4.6 µs |
 //!
 //! With a shunt either takes 0.35 ms, on a mesh 27 µs.
 //!

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Laws of friction in the plane, and one step of a pad under them.
 //!
-//!   stiction   sticks below f_s = `stiction`·f_c, slides at f_c
+//!   stiction   sticks below f_s = `stiction`·f_c, slides at f_c.
 //!   Dahl       ż = v − σ₀|v|z/f_c,          F = σ₀z
 //!   LuGre      ż = v − σ₀|v|z/g(v),         F = σ₀z + σ₁ż,   g = f_c + (f_s − f_c)·e^(−(v/v_s)²)
 //!
@@ -81,7 +81,7 @@ impl Law {
         }
     }
 
-    /// The friction of a pad that moves as it is told.
+    /// The friction of a pad whose motion is prescribed.
     pub fn follow(
         self,
         surface: &Surface,

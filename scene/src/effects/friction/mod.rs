@@ -3,13 +3,14 @@
 //!
 //! | level | what |
 //! | --- | --- |
-//! | `coulomb` | F_h = μ·ΣF_e, the attraction summed over the patches of the gap, and μN of the load; the pad goes where it is told |
+//! | `coulomb` | F_h = μ·ΣF_e, the attraction summed over the patches of the gap, and μN of the load; the pad's motion is prescribed |
 //! | `stiction` | besides, friction μ(N + F_e) that sticks and slides |
 //! | `dahl` | besides, bristles that bend before they slide |
 //! | `lugre` | besides, the Stribeck fall of sliding friction and the bristles' damping |
 //!
-//! Each is a law of its own, none an approximation of another. The step's error in the pad's place is 1.4, 16 and 150 µm at 10 µs, 100 µs and 1 ms, of a finger
-//! that swings 30 mm twice a second; the prototype has 1.8, 18 and 180 µm (docs/physics.md §4).
+//! Each is a law of its own, none an approximation of another. For a finger that swings 30 mm twice a second, the
+//! step's error in the pad's place is 1.4, 16 and 150 µm at 10 µs, 100 µs and 1 ms. The prototype has 1.8, 18 and 180
+//! µm (docs/physics.md §4).
 //!
 //! Without the table the force is μ·ΣF_e too, of the nominal μ, and no friction acts on the pad. Without `[gap]`
 //! that is eq. 8 with the true capacitance and voltage. μ is `device.mu`: 0.12, or 0.065 where the loop has to agree with the paper's K

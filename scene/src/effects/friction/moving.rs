@@ -42,7 +42,7 @@ impl Moving {
         Moving { law, surface, mu, step_s, device, pads: Vec::new() }
     }
 
-    /// The pad at the start of the case: at rest, the finger on it.
+    /// The pad at the start of the case: motionless, the finger on it.
     fn begin(drive: &PadDrive) -> Track {
         let start = drive.set(Moment::at(0.0));
         let at_m = [1e-3 * start.x_mm, 1e-3 * start.y_mm];
@@ -108,7 +108,7 @@ impl Moving {
 }
 
 impl PadEffect for Moving {
-    /// A pad at rest: friction has nothing to work against.
+    /// A motionless pad: friction has nothing to work against.
     fn act(&mut self, pad: &mut Pad) {
         pad.force_n = Some(self.mu.at(pad.time_s) * pad.attraction_n);
     }

@@ -3,7 +3,7 @@
 //!
 //! | method | order | at long steps |
 //! | --- | --- | --- |
-//! | semi-implicit: film and creep implicit, the rest as it was | 1 | stable while the contact is soft |
+//! | semi-implicit: film and creep implicit, everything else as it was | 1 | stable while the contact is soft |
 //! | implicit Euler | 1 | stable, damps |
 //! | trapezoid | 2 | stable, rings after a jump |
 //! | TR-BDF2, γ = 2 − √2 (Bank et al., 1985) | 2 | stable, damps: the reference |
@@ -61,7 +61,7 @@ impl Method {
         }
     }
 
-    /// The states of patches a step later, which rest at `rest_m`.
+    /// The states of patches a step later; without pressure their gaps are `rest_m`.
     pub fn step(
         self,
         law: &Law,

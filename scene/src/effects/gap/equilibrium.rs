@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Where a patch rests once its rubber has relaxed: the largest gap at which no pressure is left,
-//! the branch that starts open; or the gap that it finds from where it is.
+//! The gap of a patch in equilibrium, once its rubber has relaxed: the largest at which no pressure
+//! is left (the branch that starts open), or the one found from where it is.
 //!
 //! Without contact the balance is a cubic in h = g + d, so its largest root, and the fold where it
 //! vanishes, have a closed form: V_PI = √(8κh₀³/27ε₀). The contact only adds pressure, so the root

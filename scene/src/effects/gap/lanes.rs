@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Numbers of several patches side by side: as patches do not wait for each other, the processor has one's
-//! divisions under way while another's result is still to come.
+//! Numbers of several patches side by side: as patches do not wait for each other, the processor starts
+//! one's divisions while another's result is still to come.
 
 use std::array::from_fn;
 use std::ops::{Add, Div, Mul, Neg, Sub};

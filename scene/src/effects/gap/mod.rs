@@ -13,13 +13,14 @@
 //! | `trapezoid` | second order, 100 µs | 1.1e-3 |
 //! | `tr-bdf2` | second order and damping, 100 µs: the reference | 3.0e-4 |
 //!
-//! `static` and `hysteresis` are other questions than the rest, which approximate the same motion:
-//! an error budget keeps the static gap where nothing is named, and chooses among the rest where
-//! `rung = "moving"`; without a budget that is `tr-bdf2`. With `[control]` the gap moves where no level is named. `step_us` sets another step for the level that is named, up to 1 ms. A pad starts relaxed under
-//! its load, its voltage switched on at time 0; from then on load and voltage act at all times, and
-//! where they step a step ends. `drive = "sine"` pulls with the haptic voltage's own sine instead of its mean
-//! square; the force that is reported is then still of the mean square, at the gap of the moment.
-//! Behind `[supply]` the pad's voltage falls as its capacitance grows. Source: docs/physics.md §3.
+//! `static` and `hysteresis` are questions of their own; all other levels approximate the same motion. An
+//! error budget keeps the static gap where nothing is named, and chooses among these others where `rung =
+//! "moving"`; without a budget that is `tr-bdf2`. With `[control]` the gap moves where no level is named.
+//! `step_us` sets another step for the level that is named, up to 1 ms. A pad starts relaxed under its load,
+//! its voltage switched on at time 0; from then on load and voltage act at all times, and where they step a
+//! step ends. `drive = "sine"` pulls with the haptic voltage's own sine instead of its mean square; the force
+//! that is reported is then still of the mean square, at the gap of the moment. Behind `[supply]` the pad's
+//! voltage falls as its capacitance grows. Source: docs/physics.md §3.
 
 mod dynamic;
 mod equilibrium;

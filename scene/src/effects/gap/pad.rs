@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The patches of a pad together: at rest, or brought along in time.
+//! The patches of a pad together: in equilibrium, or brought along in time.
 //!
 //! Load and voltage act as they are at each stage of a step. Charge and the rubber's warmth come from
 //! effects before this one: then steps are taken where these are as they were then, `due` by `due`.
@@ -36,7 +36,7 @@ pub(super) struct Gap {
     /// Effects before it change over time what acts on the patches.
     led: bool,
     pads: Vec<Option<Moving>>,
-    /// The patches at the time that is looked at.
+    /// The patches at the time of the evaluation.
     seen: Vec<State>,
     /// The last equilibrium of each pad: load and voltage often stay the same.
     rested: Vec<Option<Rested>>,

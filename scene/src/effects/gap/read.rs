@@ -89,7 +89,8 @@ pub(in super::super) fn read(root: &Table, device: &Device) -> Result<Option<Spe
             Motion::Dynamic(_) => level,
         });
     }
-    // A loop acts on a pad faster than its gap follows: at rest at once it swings, or looks calmer than it is.
+    // A loop acts on a pad faster than its gap follows: with a gap that settles immediately it swings, or
+    // seems calmer than it is.
     let usual = if root.get("control").is_some() { MOVING.1 } else { "static" };
     Spec::with_questions("gap", Some(table), levels, usual, &[MOVING])
 }

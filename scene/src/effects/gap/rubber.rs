@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The pad's rubber: its patches, what they make of gaps, and where they rest.
+//! The pad's rubber: its patches, what they make of gaps, and their equilibrium.
 
 use super::dynamic::Method;
 use super::equilibrium::equilibrium;
@@ -7,7 +7,7 @@ use super::law::{Drive, Law, State};
 use crate::device::EPSILON_0;
 use crate::effects::pad::Supply;
 
-/// The pad's rubber: patches of equal area that differ in the gap at which they rest.
+/// The pad's rubber: patches of equal area that differ in their gap without pressure.
 #[derive(Clone, Debug)]
 pub(super) struct Rubber {
     pub law: Law,
@@ -32,8 +32,8 @@ impl Rubber {
             self.fitted_pa_per_m.map(|pa_per_m| stiffness * pa_per_m);
     }
 
-    /// The stiffest spring that steps of a method are stable with: where the highest patch rests
-    /// the film damps least.
+    /// The stiffest spring that steps of a method are stable with: at the unloaded gap of the
+    /// highest patch the film damps least.
     pub fn stiffest_pa_per_m(&self, method: Method, step_s: f64) -> f64 {
         let highest_m = self.rest_m.iter().copied().fold(0.0, f64::max);
         method.stiffest_pa_per_m(&self.law, highest_m, step_s)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `sensor.jitter_ns_rms`: the ADC samples all channels at once, a random time off: by δ it reads x
-//! + δ·dx/dt of the carrier. 1 ns costs 0.0037 % of force (docs/physics.md §5).
+//! `sensor.jitter_ns_rms`: the ADC samples all channels together, a random time off. Off by δ it reads
+//! x + δ·dx/dt of the carrier. 1 ns costs 0.0037 % of force (docs/physics.md §5).
 //!
 //! Amplitudes A get what a Hann window over the slot's N samples leaves of it, jωA·δ̄ − jωA*·δ̿: δ̄
 //! is the window's mean of δ and δ̿ that of δ·e^(−2jωt), of variance σ²·NENBW/N each.

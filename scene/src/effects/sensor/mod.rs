@@ -16,7 +16,7 @@
 //! | `offset_percent` | each channel's offset, of full scale, standard deviation | 0.01 |
 //! | `noise_ppm_rms` | white noise per sample, millionths of full scale | 18 (AD7606C-16, 92 dB) |
 //! | `dither_lsb_rms` | noise before the codes, in codes | 0.5 |
-//! | `quantisation_bits` | codes of so many bits, half to even, clipped at full scale | 16, 18 |
+//! | `quantisation_bits` | codes of this many bits, half to even, clipped at full scale | 16, 18 |
 //!
 //! The full scales in the same table belong to the device and are always there.
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `sensor.haptic_leakage_of_others`: in a pad's slot the other pads still carry their haptic
 //! voltages, whose currents flow into the same terminals. Four pads in a corner drive them beyond
-//! the ADC's range, where the one that is served does not alone (docs/physics.md §7).
+//! the ADC's range, where the selected pad alone does not (docs/physics.md §7).
 //!
 //! All haptic voltages are taken as in phase, as from one source.
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `sensor.quantisation_bits`: samples become codes of so many bits, full scale ±1, half to even,
+//! `sensor.quantisation_bits`: samples become codes of this many bits, full scale ±1, half to even,
 //! clipped at full scale. Amplitudes stay exact: quantisation is a matter of samples.
 
 use super::super::effect::{ChannelEffect, Effect, Phasors, Run};

@@ -131,7 +131,7 @@ fn currents_of_all_terminals_sum_to_the_pads() {
     }
 }
 
-/// Ratios are weighted means of signs, at every place that a calibration looks at.
+/// Ratios are weighted means of signs, at every place of a calibration.
 #[test]
 fn ratios_lie_within_one_and_shares_are_of_one() {
     for (terminals, device) in drawn() {

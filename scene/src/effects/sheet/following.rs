@@ -2,9 +2,9 @@
 //! What is computed from the sheet, kept up with it: the one way by which effects get at the sheet.
 //!
 //! The sheet is the scene's until an effect changes its film ([`FilmChange`] in the pad's state).
-//! Split, R_p, shunt and coupling each look up something that takes milliseconds to build: for the
-//! scene's own sheet that is built once and shared by all plants of the case, for a changed one it
-//! is built when the change is first met. Whoever asks for it by the pad's film follows the sheet,
+//! Split, R_p, shunt and coupling each look up something that takes milliseconds to build. For the
+//! scene's own sheet it is built once and shared by all plants of the case, for a changed one when
+//! the change is first met. An effect that asks for it by the pad's film follows the sheet,
 //! whatever changed it; without such an effect this costs a comparison.
 
 use std::sync::{Arc, OnceLock};

@@ -80,7 +80,7 @@ fn terminals_m(device: &Device) -> Vec<[f64; 2]> {
     device.terminals_mm.iter().map(place).collect()
 }
 
-/// Resistance in series with each of so many terminals: `terminal_ohm`, none where shorted,
+/// Resistance in series with each of `count` terminals: `terminal_ohm`, none where shorted,
 /// infinite where open.
 fn series(table: &Table, count: usize) -> Result<Vec<f64>, SceneError> {
     let mut ohm = each(table, count)?;

@@ -13,7 +13,7 @@ use super::tests::{MARGIN_MM, TERMINALS_M, assert_near, difference, places, shee
 use super::*;
 use crate::format::parse;
 
-/// The meshes that convergence is looked at, from coarse to fine, m.
+/// Spacings of the meshes whose convergence is tested, from coarse to fine, m.
 const SPACINGS_M: [f64; 4] = [0.02, 0.01, 0.005, 0.0025];
 
 fn errors(correction: Correction) -> [f64; 4] {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Neumann function of the mesh of a uniform rectangle, per ohm per square: what
-//! [`super::neumann`] is to the sheet itself. The difference between the two for a source, taken
-//! with the film's resistance there, is what a mesh makes wrong of that source: put in series, it
-//! takes the spacing out to second order, at rims and in corners as well.
+//! Neumann function of the mesh of a uniform rectangle, per ohm per square: what [`super::neumann`]
+//! is to the sheet itself. The difference between the two for a source, times the film's resistance
+//! there, is the mesh's error for that source. Put in series, it removes the effect of the spacing
+//! to second order, at rims and in corners as well.
 //!
-//! With θ_k = πk/n_y, columns c and rows r, 1/ν_k = 1/n_y for k = 0 and n_y, else 2/n_y, the
-//! conductances g_x = h_y/h_x, g_y = h_x/h_y, and cosh μ_k = 1 + (g_y/g_x)(1 − cos θ_k):
+//! With θ_k = πk/n_y, columns c and rows r; 1/ν_k = 1/n_y for k = 0 and n_y, else 2/n_y. The
+//! conductances are g_x = h_y/h_x, g_y = h_x/h_y, and cosh μ_k = 1 + (g_y/g_x)(1 − cos θ_k):
 //!
 //!   N = Σ_k cos(θ_k·r)·cos(θ_k·r′)·K_k(c, c′)/ν_k,
 //!   K_k = cosh(μ_k·c<)·cosh(μ_k·(n_x − c>))/(g_x·sinh μ_k·sinh(μ_k·n_x)),

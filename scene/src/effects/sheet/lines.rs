@@ -7,7 +7,7 @@ const APART_MM: [f64; 2] = [40.0, 25.0];
 /// Steps that the reach is looked through in.
 const STEPS: usize = 1000;
 
-/// So much farther apart for each millimetre that they are off.
+/// How much farther apart they are for each millimetre that they are off.
 const GROWTH: f64 = 0.25;
 
 /// Places along an axis in order, four at least.
@@ -24,7 +24,7 @@ impl Lines {
                 breaks_mm.iter().map(|to| (at - to).abs() - radius_mm).fold(f64::MAX, f64::min);
             (near_mm + GROWTH * off.max(0.0)).min(far_mm)
         };
-        // So many lines up to each place: they are where that is a whole number.
+        // The number of lines up to each place: they are where that is a whole number.
         let step_mm = 2.0 * reach_mm / STEPS as f64;
         let place = |step: f64| step * step_mm - reach_mm;
         let mut passed = vec![0.0];

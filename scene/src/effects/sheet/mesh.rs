@@ -3,9 +3,10 @@
 //!
 //! A conductance of the mesh is (width of the strip that it stands for)/(its length·R_s), half as
 //! wide along the rim. R_s is the film's mean along the strip, and strips of different R_s side by
-//! side add their conductances: where a film's patches end between two nodes, too, currents sum to
-//! zero at every node to second order in the spacing. A current into a place between nodes goes to
-//! the four around it, by their weights in bilinear interpolation; a potential there is read so.
+//! side add their conductances. So currents sum to zero at every node to second order in the
+//! spacing, also where a film's patches end between two nodes. A current into a place between nodes
+//! goes to the four around it, by their weights in bilinear interpolation; a potential there is
+//! read so.
 
 use std::collections::BTreeMap;
 
@@ -23,8 +24,7 @@ const LEAST_DISSECTED: usize = 4;
 /// A mesh of nodes from rim to rim.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Mesh {
-    /// Along x and y; twice an odd number, so that the edges' middles are nodes and the rest
-    /// divides by four.
+    /// Along x and y; two more than a multiple of four, so that the edges' middles are nodes.
     pub cells: [usize; 2],
     pub step_m: [f64; 2],
 }
@@ -48,8 +48,9 @@ impl Mesh {
         [column as f64 * self.step_m[0], row as f64 * self.step_m[1]]
     }
 
-    /// What a current into a place, in m from the bottom left corner, is to the sixteen nodes around
-    /// it: by cubic interpolation along each axis of what goes on as its mirror image beyond a rim.
+    /// Shares of a current into a place, in m from the bottom left corner, at the sixteen nodes
+    /// around it. They are those of cubic interpolation along each axis of a function that goes on
+    /// as its mirror image beyond a rim.
     pub fn spread(&self, place_m: [f64; 2]) -> Spread {
         let [columns, rows] = [0, 1].map(|axis| {
             let (cell, t) = self.locate(place_m, axis);

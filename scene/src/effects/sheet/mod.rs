@@ -3,13 +3,13 @@
 //! resistance R_p at the pad.
 //!
 //! Three to sixteen terminals are where `terminals_mm` says. Without it terminals 1 to 4 are the
-//! corners top left, bottom left, bottom right, top right (the signs of eqs. 2 and 3); 5 and 6 are
-//! the middles of the bottom and the top edge, of the left and the right one with `middles =
-//! "short"`, or where `terminal_5_mm` and `terminal_6_mm` say; `terminals = 4` leaves both away.
-//! Each is a patch of radius `terminal_radius_mm` behind `terminal_ohm`, a number or a list of one
-//! for each; those listed in `shorted` have no resistance, those in `open` no current. The radius
-//! is not the paper's: 1.7 mm gives the R_p of docs/physics.md §1, 73 to 190 Ω, mean 143 Ω, for
-//! pads 20 mm off the edges.
+//! corners top left, bottom left, bottom right, top right (the signs of eqs. 2 and 3). Terminals 5
+//! and 6 are the middles of the bottom and the top edge, of the left and the right one with
+//! `middles = "short"`, or where `terminal_5_mm` and `terminal_6_mm` say. `terminals = 4` leaves
+//! both away. Each is a patch of radius `terminal_radius_mm` behind `terminal_ohm`, a number or a
+//! list of one for each; those listed in `shorted` have no resistance, those in `open` no current.
+//! The radius is not the paper's: 1.7 mm gives the R_p of docs/physics.md §1, 73 to 190 Ω, mean 143
+//! Ω, for pads 20 mm off the edges.
 //!
 //! | level | what | look-up | error of the split, rms / max | build |
 //! | --- | --- | --- | --- | --- |

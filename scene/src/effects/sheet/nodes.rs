@@ -32,7 +32,7 @@ pub(super) struct Nodes {
 }
 
 impl Nodes {
-    /// Nodes of so many values each, in rows from left to right, from their column and row.
+    /// Nodes of `values` values each, in rows from left to right, from their column and row.
     pub fn in_rows(
         values: usize,
         [columns, rows]: [usize; 2],

@@ -2,11 +2,11 @@
 //! R_p over the places of a pad, from a mesh.
 //!
 //! R_p is the mean over the pad's disc of the potential of an even current into it: an energy of the
-//! mesh for each place, put right as the terminals are, by the film's mean under the disc times what
-//! the mesh of a uniform film makes wrong of the disc. What varies quickly, near terminals and
-//! corners, a uniform sheet has too, and a slope of the film is a factor: what is looked up is the
-//! exact R_p of a uniform sheet times that factor, times a ratio that was solved for on lines 40 mm
-//! from one another, nearer where the film's patches end.
+//! mesh for each place. It is corrected as the terminals are, by the film's mean under the disc
+//! times the error of a uniform film's mesh for the disc. What varies quickly, near terminals and
+//! corners, a uniform sheet has too, and a slope of the film is a factor. So the look-up is the
+//! exact R_p of a uniform sheet times that factor, times a ratio. The ratio was solved for on lines
+//! 40 mm from one another, nearer where the film's patches end.
 
 use super::analytic::Analytic;
 use super::disc::Disc;

@@ -102,8 +102,8 @@ pub(crate) struct Spline {
 }
 
 impl Spline {
-    /// Through a function of so many values at the nodes, with its slopes at the rim. What the function needs
-    /// of an x or of a y alone is prepared once for all places that have it.
+    /// Through a function of `values` values at the nodes, with its slopes at the rim. What the function
+    /// needs of an x or of a y alone is prepared once for all places that have it.
     pub fn of<X: Sync, Y: Sync>(
         axes: [Axis; 2],
         values: usize,
@@ -182,7 +182,7 @@ fn add(a: Lane, factor: f64, b: Lane) -> Lane {
     std::array::from_fn(|n| a[n] + factor * b[n])
 }
 
-/// Turns values between two end slopes into B-spline coefficients, in place: of each node so many lanes,
+/// Turns values between two end slopes into B-spline coefficients, in place: `lanes` lanes of each node,
 /// node after node.
 ///
 /// (c_(i−1) + 4c_i + c_(i+1))/6 = f_i inside, (c_1 − c_(−1))/2 = f′ at the ends: tridiagonal once

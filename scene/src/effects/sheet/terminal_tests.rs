@@ -7,9 +7,9 @@ use super::grid::Grid;
 use super::tests::{MARGIN_MM, assert_near, difference, places, sheet};
 use super::*;
 
-/// So many terminals, m from the bottom left corner: the corners first, then places along the long
-/// edges, mirrored in the sheet's middle; of three and five, two corners and the right edge's
-/// middle, and the bottom edge's too.
+/// Terminals, m from the bottom left corner. Of an even number the corners come first, then places
+/// along the long edges, mirrored in the sheet's middle. Three are the left corners and the right
+/// edge's middle, five all corners and that middle.
 fn terminals_m(count: usize) -> Vec<[f64; 2]> {
     let corners = [[0.0, 0.5], [0.0, 0.0], [0.86, 0.0], [0.86, 0.5]];
     let odd = |from: &[[f64; 2]]| from.iter().copied().chain([[0.86, 0.25]]).collect();

@@ -105,8 +105,8 @@ fn fit_error(points: &[([f64; 2], [f64; 2])], degree: i32) -> [f64; 2] {
     ]
 }
 
-/// Truncation error after so many images (docs/physics.md §1): that of the shares; N itself errs by
-/// the first images left out, (2/π)·e^(−2πaM/b) at most, which is from corner to corner.
+/// Truncation error after one to three images (docs/physics.md §1): that of the shares; N itself
+/// errs by the first images left out, (2/π)·e^(−2πaM/b) at most, which is from corner to corner.
 #[test]
 fn truncation_falls_with_each_image_as_predicted() {
     let size = [0.86, 0.5];
@@ -164,9 +164,9 @@ fn an_even_disc_has_exactly_the_split_of_its_centre() {
     }
 }
 
-/// The potential of an even disc in its mean over itself is that of a ring of R·e^(−1/4); two sets
+/// The potential of an even disc in its mean over itself is that of a ring of R·e^(−1/4). Two sets
 /// of rings, so that no two places are the same, are 0.013 Ω off (measured, before the limit was
-/// set); R instead of R·e^(−1/4) would be 6 Ω off.
+/// set). R instead of R·e^(−1/4) would be 6 Ω off.
 #[test]
 fn resistance_sees_the_disc() {
     let exact = Analytic::new(&sheet(0.0));

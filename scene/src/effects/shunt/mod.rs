@@ -100,7 +100,7 @@ struct Screening {
 }
 
 impl Screening {
-    /// With a table of so many columns and rows, or none.
+    /// With a table of `nodes` columns and rows, or none.
     fn new(sheet: &Sheet, siemens_per_m2: f64, nodes: Option<[usize; 2]>) -> Self {
         let (with, reach_mm) = (Screened::new(sheet, siemens_per_m2), sheet.reach_mm());
         let table = nodes.map(|nodes| {

@@ -12,11 +12,11 @@
 //! ```
 //!
 //! A sheet that no terminal holds follows the panel, so that the terminals see V_p through the
-//! sheet: their currents are of one source and sum to nearly jωcA·V_p, 24 µA of 10 mV through 9
+//! sheet. Their currents are of one source and sum to nearly jωcA·V_p, 24 µA of 10 mV through 9
 //! nF/m². A pad's own share is left out: its 318 pF are a twelfth of the shunt's, behind a source
-//! that holds it. V_p is Re{a·e^(jωt)} with an envelope a that has forgotten e⁻¹ after 1/(2πb), b
-//! the half width; a demodulator reads of it what the slot's Hann window passes: at 1 kHz and a
-//! window of 1 ms four tenths of its square. Source: docs/physics.md §7.
+//! that holds it. V_p is Re{a·e^(jωt)} with an envelope a whose autocorrelation falls to e⁻¹ after
+//! 1/(2πb), b the half width. A demodulator reads of it what the slot's Hann window passes: at 1
+//! kHz and a window of 1 ms four tenths of its square. Source: docs/physics.md §7.
 
 use std::f64::consts::TAU;
 

@@ -4,7 +4,7 @@
 //! −∇·(∇φ/R_s) + jωc·φ = I·δ has the Neumann function of the sheet alone plus
 //!
 //!   D = Σ_n (ε_n/b)·cos(nπy/b)·cos(nπy′/b)·[f(√(κ_n² + jωcR_s)) − f(κ_n)],   κ_n = nπ/b,   ε_0 = 1, else 2
-//!   f(k) = cosh(k·x_<)·cosh(k·(a − x_>))/(k·sinh ka),   for n = 0 without shunt g₀ = (x²+x′²)/2a − max(x, x′) + a/3
+//!   f(k) = cosh(k·x_<)·cosh(k·(a − x_>))/(k·sinh ka),   for n = 0 without shunt g₀ = (x²+x′²)/2a − max(x,x′) + a/3
 //!
 //! The singularity is all in the sheet's own function, so that the terms fall as 1/n³. Terminals
 //! tie it together as they do without shunt, but no border is needed: what the terminals do not

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The actual error of a scene against the same scene at other levels, over every slot and every
-//! quantity, by code of its own: an ideal core that is calibrated on the finer scene reads both.
+//! quantity, by code of its own. An ideal core that is calibrated on the finer scene reads both.
 //!
 //! Norms: a position against the sheet's size along its axis; capacitance and R_p against
 //! themselves; voltage, force and friction against the largest of the case.
@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 
 use hapticore_scene::{Complex, Device, Plant, Scene, Timing, Truth, signs_by_place};
 
-/// What a core is given in a slot.
+/// What a core receives in a slot.
 struct Signals {
     terminals: Vec<Complex>,
     sense: Complex,

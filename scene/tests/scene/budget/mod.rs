@@ -81,7 +81,7 @@ fn a_budget_without_chosen_levels_cannot_be_run() {
     );
 }
 
-/// What a budget may not do: each of these was accepted while errors were looked at in 64 slots,
+/// What a budget may not do: each of these was accepted while errors were evaluated in 64 slots,
 /// terminal by terminal.
 fn check(budget: &str, finest: &str, percent: f64) {
     let parse = |text: &str| {
@@ -109,7 +109,7 @@ fn an_error_that_all_currents_share_counts_as_what_it_does_to_the_force() {
     check(&text(""), &text("rung = \"full\"\n"), 0.05);
 }
 
-/// Of two pads the first one alone was in the slots that were looked at; the second one lies in
+/// Of two pads the first one alone was in the slots that were evaluated; the second one lies in
 /// front of a terminal.
 #[test]
 fn every_slot_and_the_sheets_resistance_count() {

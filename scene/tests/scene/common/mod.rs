@@ -89,7 +89,7 @@ pub fn capacitance_f(plant: &Plant, phasors: &[Complex]) -> f64 {
     total.norm_sqr() / (device.carrier_rad_s * (total * volt.conj()).im)
 }
 
-/// Standard deviation of the force in percent of its mean, over so many slots; force goes with C².
+/// Standard deviation of the force in percent of its mean, over `slots` slots; force goes with C².
 pub fn force_noise_percent(plant: &mut Plant, slots: usize, window: Window) -> f64 {
     let forces: Vec<f64> = (0..slots)
         .map(|slot| {

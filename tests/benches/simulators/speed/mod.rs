@@ -8,9 +8,8 @@
 //! | [`simulator`] | Verilator and CXXRTL, as fast as they can be |
 //!
 //! What is outside of the core is the same few instructions everywhere: a set of codes for each
-//! strobe, the code of the channel that was asked for, and at every clock all outputs into a sum,
-//! so that none is spared. Equal sums are equal outputs (the lock-step tests compare them one by
-//! one).
+//! strobe, and the code of the requested channel. At every clock all outputs go into a sum, so that
+//! none is spared. Equal sums are equal outputs (the lock-step tests compare them one by one).
 
 pub mod model;
 pub mod simulator;

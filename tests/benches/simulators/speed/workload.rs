@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A stimulus at rest: all its codes in memory, small enough to stay near the processor.
+//! A stimulus in memory: all its codes, small enough to stay in the processor's caches.
 
 use hapticore_contract::profile::Profile;
 use hapticore_model::blocks::core::Inputs;
 
 use hapticore_tests::stimulus::Stimulus;
 
-/// What a core is given, over and over.
+/// What a core receives, over and over.
 #[derive(Debug, Clone)]
 pub struct Workload {
     /// Inputs that stay: the calibration's.
@@ -24,7 +24,7 @@ pub struct Workload {
 }
 
 impl Workload {
-    /// A stimulus's samples, so many times.
+    /// A stimulus's samples, `passes` times.
     pub fn new(profile: &Profile, stimulus: Stimulus, passes: usize) -> Workload {
         let (constants, table, samples) = stimulus.into_parts();
         let code = |code: i64| i32::try_from(code).expect("an ADC's code");

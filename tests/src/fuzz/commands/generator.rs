@@ -19,13 +19,14 @@ const OFTEN: [(&str, u32); 4] = [("simulate", 8), ("replay", 5), ("hdl", 6), ("c
 const BESIDE: [(&str, &str, &str); 2] =
     [("hdl", "clock_hz", "dac"), ("hdl", "full_scale_v", "dac")];
 
-/// One value in so many is hostile.
+/// One value in this many is hostile.
 const HOSTILE: u32 = 12;
 
 /// What keeps scenes short that go on in time.
 const SHORT: &str = "--set=duration_s=0.01";
 
-/// What ends a run of `tradeoff` as soon as its options are read, in all but one of so many lines: it takes many seconds.
+/// What ends a run of `tradeoff` as soon as its options are read, in all but one of `RUN` lines: a run takes many
+/// seconds.
 const REFUSED: &str = "--scene=no-such-scene";
 const RUN: u32 = 60;
 

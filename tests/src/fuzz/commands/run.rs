@@ -34,8 +34,9 @@ pub struct Ended {
     pub findings: Vec<String>,
 }
 
-/// Runs a line in a folder of its own, and holds of it what is held of each: it ends in time with status 0, 1 or 2,
-/// without a panic; a refusal is one line and leaves no results; results are whole, and no number in them is none.
+/// Runs a line in a folder of its own, and checks what holds of every line. It ends in time with status 0, 1 or 2,
+/// without a panic. A refusal is one line and leaves no results. Results are whole, and every number in them is
+/// finite.
 ///
 /// # Panics
 /// The run cannot be started.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The codes that a core is given in a slot.
+//! The codes that a core receives in a slot.
 
 use std::f64::consts::TAU;
 

@@ -41,7 +41,7 @@ impl Mutator {
         toml::to_string(document.as_table()?).ok()
     }
 
-    /// One value of so many becomes the other's of the same name.
+    /// One value in `of` becomes the other's of the same name.
     fn merge(&mut self, value: &mut Value, other: &Value, of: u8) {
         match (value, other) {
             (Value::Table(table), Value::Table(other)) => {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A TOML document with other values, keys and arrays.
 //!
-//! Where something is changed is chosen from the root down, each key and element of a table or
-//! array alike: a key of a small table is met as often as all rows of a long array.
+//! The place of a change is chosen from the root down, each key and element of a table or array
+//! alike. So a key of a small table is met as often as all rows of a long array.
 
 use std::sync::OnceLock;
 
@@ -11,7 +11,7 @@ use toml::{Table, Value};
 use super::Mutator;
 use crate::fuzz::{TARGETS, seeds};
 
-/// Of so many choices of a table or array, one stops there rather than go further down.
+/// Of this many choices of a table or array, one stops there rather than go further down.
 const STOPS: u8 = 6;
 
 impl Mutator {

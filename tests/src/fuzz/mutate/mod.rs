@@ -21,8 +21,8 @@ pub use cross::cross;
 
 use fastrand::Rng;
 
-/// The fuzzer's own mutation: of the slice so many bytes are the input and so many may be; how many
-/// are the input then.
+/// The fuzzer's own mutation of a slice: takes the length of the input in it and the length
+/// allowed, returns the new length.
 pub type Bytes = fn(&mut [u8], usize, usize) -> usize;
 
 /// Mutates an input in place; how long it is then. The same arguments give the same input.
@@ -77,7 +77,7 @@ impl Mutator {
         Some(files.join("\0"))
     }
 
-    /// One of so many, with fewer changes more likely.
+    /// The number of changes, with fewer more likely.
     fn changes(&mut self) -> usize {
         1 + self.rng.usize(..3) * self.rng.usize(..2)
     }

@@ -57,7 +57,7 @@ fn at_rest(slots: &[Slot]) -> (f64, f64) {
     (spread, last.iter().map(|slot| slot.force_n).sum::<f64>() / last.len() as f64)
 }
 
-/// The plant is not the one that the loop was made for.
+/// The plant differs from the plant that the loop was tuned for.
 pub fn plant_half_off() -> Outcome {
     const PLANTS: [(&str, Setting); 8] = [
         ("friction +50 %", ("device.mu", "0.0975")),

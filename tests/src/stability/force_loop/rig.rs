@@ -24,7 +24,7 @@ const STEP_PF: f64 = 1.0 / 1_048_576.0;
 /// Frames within which a state comes back.
 const MOST_FRAMES: usize = 50_000;
 
-/// k of the plant, N/pF²: 0.36 N at full drive and rest.
+/// k of the plant, N/pF²: 0.36 N at full drive, settled.
 pub const FORCE_GAIN: f64 = 4e-6 / 2.25;
 
 /// The plant alone.
@@ -35,7 +35,7 @@ pub struct Plant {
 }
 
 impl Plant {
-    /// At rest, not driven.
+    /// In equilibrium, not driven.
     pub fn new() -> Self {
         Plant { capacitance_pf: 300.0 }
     }
@@ -180,7 +180,7 @@ impl Rig {
         self.measured(target_n, 1.9, true)
     }
 
-    /// So many frames of the closed loop, and the last.
+    /// Runs `count` frames of the closed loop; returns the last.
     pub fn frames(&mut self, target_n: f64, count: usize) -> Given {
         (1..count).for_each(|_| {
             self.frame(target_n);
@@ -245,7 +245,7 @@ impl Rig {
         panic!("no state comes back within {MOST_FRAMES} frames");
     }
 
-    /// The force at which the law's equations and the plant rest without words, N.
+    /// The force at which the law's equations and the plant settle without words, N.
     pub fn at_rest(&self, target_n: f64) -> f64 {
         if self.control.law == Law::Integral {
             return target_n;

@@ -12,12 +12,12 @@ pub struct Rival<L> {
 }
 
 impl<L: Law> Rival<L> {
-    /// With a plant at rest.
+    /// With a plant in equilibrium.
     pub fn new(law: L) -> Self {
         Rival { law, plant: Plant::new(), drive: 0.0 }
     }
 
-    /// Forces of so many frames with this target, N.
+    /// Forces of `frames` frames with this target, N.
     pub fn forces(&mut self, target_n: f64, frames: usize) -> Vec<f64> {
         (0..frames).map(|_| self.frame(target_n)).collect()
     }

@@ -7,7 +7,7 @@ use hapticore_scene::Truth;
 use super::scenes;
 use crate::stability::Outcome;
 
-/// When the lines fail, and come back: the hand rests 1.28 mm within the wall until 0.95 s.
+/// When the lines fail, and come back: the hand stays 1.28 mm within the wall until 0.95 s.
 const LOST_S: [f64; 2] = [0.85, 0.88];
 
 /// A drive word of the pad, and what was true in its slot.
@@ -28,7 +28,7 @@ fn run() -> (Vec<Driven>, u64) {
     (driven.map(|(truth, drive)| Driven { truth, drive }).collect(), most)
 }
 
-/// The sensor's lines fail while a hand rests in the wall.
+/// The sensor's lines fail while a hand stays in the wall.
 pub fn sensor_invalid_in_mid_wall() -> Outcome {
     let (driven, most) = run();
     let first = driven

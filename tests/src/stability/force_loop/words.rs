@@ -8,10 +8,10 @@ use super::rivals::Rival;
 use crate::rivals::laws::{Gains, Law as _, Linien, PyRpl, Seen, SuServo};
 use crate::stability::Outcome;
 
-/// Targets at rest, N.
+/// Steady targets, N.
 const TARGETS_N: [f64; 5] = [0.011, 0.051, 0.093, 0.171, 0.244];
 
-/// What narrowing leaves of the force at rest, for ever.
+/// The permanent error of the steady force that narrowing leaves.
 pub fn rounding_bias() -> Outcome {
     let mut outcome = Outcome::default();
     let (mut frames, mut step_n) = (0, 0.0);
@@ -43,7 +43,7 @@ pub fn rounding_bias() -> Outcome {
     ))
 }
 
-/// The words of a loop at rest.
+/// The words of a settled loop.
 pub fn limit_cycle() -> Outcome {
     let mut outcome = Outcome::default();
     let mut frames = 0;
@@ -159,7 +159,7 @@ pub fn rail_for_a_million_frames() -> Outcome {
     Outcome::default().equal(frames)
 }
 
-/// Estimates that are invalid for long, once it is at rest.
+/// Estimates that are invalid for long, once the loop has settled.
 pub fn sensor_invalid() -> Outcome {
     let mut frames = 0;
     for law in Law::ALL {
@@ -180,7 +180,7 @@ pub fn sensor_invalid() -> Outcome {
     Outcome::default().equal(frames)
 }
 
-/// Nobody is there to ask for a force.
+/// The host is silent: it asks for no force.
 pub fn host_silent() -> Outcome {
     let mut frames = 0;
     for law in Law::ALL {

@@ -124,7 +124,7 @@ fn outcome(sweeps: &[Sweep]) -> Outcome {
 }
 
 /// What the rounding of words leaves at an amplitude, at most, percent: of capacitance, admittance and
-/// the terminals' I and Q. As a pad at rest meets the same roundings in every slot, they do not average.
+/// the terminals' I and Q. As a resting pad meets the same roundings in every slot, they do not average.
 fn words(bench: &Bench, steps: f64) -> f64 {
     let formats = &bench.profile.formats;
     let pad = bench.pad(steps * formats.adc.lsb());

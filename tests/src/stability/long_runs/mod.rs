@@ -56,8 +56,8 @@ fn round(bench: &Bench) -> [Vec<i32>; 4] {
     ]
 }
 
-/// The round again and again until so many samples of windows have been seen: slots, each with the
-/// frame of the first round.
+/// Repeats the round until `samples` samples of windows have passed; returns the number of slots,
+/// each with the frame of the first round.
 ///
 /// # Panics
 /// Where a frame is another.
@@ -77,7 +77,7 @@ pub fn repeat(bench: &Bench, samples: u64) -> u64 {
 fn frames_of_first_round(bench: &Bench) -> [Frame; 4] {
     let blanked = bench.profile.slot.blanking() as usize * bench.profile.channels();
     let (slots, mut fixed) = (round(bench), bench.fixed());
-    // Where nothing is found, the last valid results are given out: those of the slot before.
+    // Where nothing is found, the core outputs the last valid results: those of the slot before.
     let mut of = |slot: usize| fixed.slot(slot, &slots[slot][blanked..]);
     (0..4).for_each(|slot| {
         of(slot);
@@ -90,8 +90,8 @@ fn ten_million_samples() -> Outcome {
     Outcome::default().equal(slots)
 }
 
-/// The same at every clock, until so many samples of whole slots have been seen: slots, each but those of the first round
-/// with the frame of the first round of fidelity `fixed`.
+/// The same at every clock, until `samples` samples of whole slots have passed. Returns the number of slots; each but
+/// those of the first round has the frame of the first round of fidelity `fixed`.
 ///
 /// # Panics
 /// Where a frame is another.

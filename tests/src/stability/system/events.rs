@@ -10,7 +10,7 @@ use super::upsets::{Fate, Fates, Site, Steady, memories, registers};
 use crate::stability::Outcome;
 use crate::stability::bench::PROFILES;
 
-/// So many clocks of a round, at random.
+/// This many clocks of a round, at random.
 const CLOCKS: usize = 100;
 
 fn some(sites: Vec<Site>, count: usize, seed: u64) -> Vec<Site> {
@@ -48,7 +48,8 @@ pub fn upset_memories() -> Outcome {
         .equal(all.recovered)
 }
 
-/// So many upsets of each profile; with `UPSETS=all` as many as the second numbers, which takes minutes.
+/// As many upsets of each profile as `few` says; with `UPSETS=all` as many as `many` says, which takes
+/// minutes.
 fn upsets(sites: fn(&Device) -> Vec<Site>, few: [usize; 3], many: [usize; 3]) -> Fates {
     let counts = if std::env::var("UPSETS").as_deref() == Ok("all") { many } else { few };
     let mut all = Fates::default();

@@ -118,8 +118,8 @@ pub const GROUP: Group = Group {
     ],
 };
 
-/// Holds that a core of a profile in whole slots, and the device around it, are after a round of all
-/// pads as they were before: so many words.
+/// Checks that a core of a profile in whole slots, and the device around it, are after a round of
+/// all pads as they were before. Returns the number of their words.
 ///
 /// # Panics
 /// Where the state does not come back.

@@ -9,7 +9,7 @@ use hapticore_model::fidelity::clock::ClockSimulation;
 use crate::stability::Outcome;
 use crate::stability::bench::{Bench, Pad, percent};
 
-/// Nobody on the sheet.
+/// No pad on the sheet.
 pub fn no_pad() -> Outcome {
     let (mut compared, mut largest, mut invalid) = (0, 0f64, 0);
     for bench in Bench::all() {

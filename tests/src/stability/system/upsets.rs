@@ -3,7 +3,8 @@
 //! runs on beside the device that it drives.
 //!
 //! Without an upset the state at the end of each frame comes back round after round. Once the state
-//! after an upset is that of the same frame without it, all that follows is the same for ever.
+//! after an upset is that of the same frame without it, everything that follows is the same for
+//! ever.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -91,7 +92,7 @@ fn sites(device: &Device) -> (Vec<Site>, Vec<Site>) {
 }
 
 impl<'a> Steady<'a> {
-    /// The core of a device after so many rounds that its state comes back.
+    /// The core of a device after enough rounds for its state to come back.
     ///
     /// # Panics
     /// Where it does not.
@@ -284,7 +285,7 @@ impl Visitor<Bits> for Names {
     }
 }
 
-/// Inverts a bit of the word that comes after so many others.
+/// Inverts a bit of the word that comes after `before` others.
 struct Flip {
     before: usize,
     bit: u8,

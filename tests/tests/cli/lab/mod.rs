@@ -78,7 +78,7 @@ pub fn plant(scene: &str, set: &[&str]) -> Plant {
     Plant::new(&scene.within_budget(&timing).unwrap(), 0, &timing).unwrap()
 }
 
-/// A raster of so many columns and rows over a sheet, as far as a pad of 20 mm goes.
+/// A raster of `columns` × `rows` places over a sheet, as far as a pad of 20 mm goes.
 pub fn raster([columns, rows]: [usize; 2], half_mm: [f64; 2]) -> Vec<[f64; 2]> {
     let along =
         |k: usize, count: usize, half: f64| half * (2.0 * k as f64 / (count - 1) as f64 - 1.0);
@@ -87,7 +87,7 @@ pub fn raster([columns, rows]: [usize; 2], half_mm: [f64; 2]) -> Vec<[f64; 2]> {
     (0..columns * rows).map(place).collect()
 }
 
-/// What a plant's terminals read at places, each with noise of so many parts.
+/// What a plant's terminals read at places, each with noise of `parts` of itself.
 pub fn measurements(
     plant: &Plant,
     places: &[[f64; 2]],

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A column of times: whether samples follow each other as the sample rate says.
 //!
-//! A step that is off by more than a quarter of a sample, and by more than the digits of the column
-//! resolve, is a jump where the next step is as it should be; else the rate is another.
+//! A step is odd if it is off by more than a quarter of a sample and by more than the digits of the
+//! column resolve. If the next step is correct, the odd one is a jump; else the rate is another.
 
 use anyhow::{Result, bail};
 

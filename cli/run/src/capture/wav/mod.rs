@@ -2,10 +2,10 @@
 //! Captures as WAV: a channel each for the currents, the sensing voltage and the haptic voltage,
 //! and perhaps one for the pad.
 //!
-//! As in any WAV file a sample's full scale is the ADC's: codes of 18 bits are at the top of
-//! samples of 24 bits, and the valid bits of WAVE_FORMAT_EXTENSIBLE at the top of their container
-//! (Microsoft, "Extensible Wave-Format Descriptors"). Files beyond 4 GiB are RF64 (EBU Tech 3306);
-//! BW64 (ITU-R BS.2088) is read, too.
+//! As in any WAV file a sample's full scale is the ADC's. Codes of 18 bits are in the high bits of
+//! samples of 24 bits, and the valid bits of WAVE_FORMAT_EXTENSIBLE in the high bits of their
+//! container (Microsoft, "Extensible Wave-Format Descriptors"). Files beyond 4 GiB are RF64 (EBU
+//! Tech 3306); BW64 (ITU-R BS.2088) is read, too.
 //!
 //! The reader is our own: it takes samples from a pipe, valid bits, and RF64, of which `hound`
 //! takes none.

@@ -90,7 +90,7 @@ impl Recorder for Writer {
 }
 
 impl Format {
-    /// The head of a file with so many bytes of samples: RF64 where they are more than `most`.
+    /// The head of a file with `samples` bytes of samples: RF64 where they are more than `most`.
     fn head(self, samples: u64, most: u64) -> Vec<u8> {
         let large = samples > most;
         let block = self.channels * self.bytes;

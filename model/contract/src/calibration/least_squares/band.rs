@@ -11,7 +11,7 @@ pub struct Band {
 }
 
 impl Band {
-    /// Of so many entries, all coefficients 0.
+    /// Equations of `entries` entries, all coefficients 0.
     pub fn new(entries: usize, reach: usize) -> Self {
         let mut coefficients = Vec::new();
         // Written, not asked for as zeros: pages that are read before they are written come from the system twice, and
@@ -38,8 +38,8 @@ impl Band {
         Some(right)
     }
 
-    /// The factor L, M = L·Lᵀ, in place of M: some columns are made, and what they add to M is taken
-    /// from all that comes after them.
+    /// The factor L, M = L·Lᵀ, in place of M: computes some columns of L, then subtracts what they add to M from all
+    /// columns after them.
     fn factor(&mut self) -> Option<()> {
         let mut panel = [(); COLUMNS].map(|()| vec![0.0; self.reach + COLUMNS]);
         for first in (0..self.entries).step_by(COLUMNS) {
@@ -64,8 +64,7 @@ impl Band {
         Some(())
     }
 
-    /// Where the coefficients of an entry with itself and with the entries after it stand: with so many
-    /// at most.
+    /// Where the coefficients of an entry with itself and with the entries after it stand: `most` of them at most.
     fn column(&self, entry: usize, most: usize) -> impl Iterator<Item = usize> + use<> {
         let (own, next) = (self.place(entry, entry), self.reach);
         (0..most.min(self.reach + 1)).map(move |k| own + k * next)
@@ -95,7 +94,7 @@ impl Band {
     }
 }
 
-/// Columns of L that are made at once: what comes after them is read and written once for all.
+/// Columns of L per pass: the columns after them are read and written once per pass.
 const COLUMNS: usize = 4;
 
 /// The columns of L from those of M, less what the columns before them have added; the first number of

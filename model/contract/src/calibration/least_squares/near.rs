@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Which entries of a raster meet in an equation.
 
-/// Entries meet up to so many columns and rows apart.
+/// The largest distance, in columns and in rows, of two entries that meet in an equation.
 pub const REACH: usize = 2;
 
 /// Columns, and rows, about an entry that it may meet.

@@ -16,7 +16,7 @@ pub struct RasterFit<const LAYERS: usize> {
 }
 
 impl<const LAYERS: usize> RasterFit<LAYERS> {
-    /// A raster of so many columns and rows.
+    /// A raster of `columns` by `rows` entries.
     pub fn new(size @ [columns, rows]: [usize; 2]) -> Self {
         let entries = columns * rows;
         let (mut normal, mut right) = (Vec::new(), Vec::new());
@@ -131,8 +131,8 @@ mod tests {
             .flat_map(move |row| (0..columns - 2).map(move |column| row * columns + column))
     }
 
-    /// Equations about every square of a raster, that these entries satisfy; how much each counts rises with the
-    /// number of the entry, up to so many times.
+    /// Equations about every square of a raster, that these entries satisfy; the weight of an equation rises with the
+    /// number of the entry, from 1 to `times`.
     fn asked(
         size: [usize; 2],
         entries: &[Vec<f64>; 2],

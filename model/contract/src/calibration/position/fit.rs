@@ -233,7 +233,7 @@ impl PositionTable {
     }
 }
 
-/// Positions are within plus and minus so many mm.
+/// The largest magnitude of a position, mm.
 fn range(profile: &Profile) -> f64 {
     let position = profile.formats.position;
     position.real(position.max_code() as i64 + 1)

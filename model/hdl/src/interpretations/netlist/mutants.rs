@@ -4,7 +4,7 @@
 //! | class | what is wrong |
 //! | --- | --- |
 //! | missing reset | a register starts with another code: 1 of a bit, the last state, else its largest code |
-//! | missing clear | what a register takes next, or what an instance is given, does not depend on an input that begins anew ([`BEGINS`]) |
+//! | missing clear | a register's next value, or an instance's input, ignores an input that begins anew ([`BEGINS`]) |
 //! | sticky flag | a register of one bit that is set stays set |
 //! | held one clock | a register of one bit, or a state, follows one cycle late |
 //! | stale operand | an operand of a sum, difference or product, of a memory or of an instance is what it was one cycle before |
@@ -154,7 +154,7 @@ fn of_bits(module: &Module) -> impl Iterator<Item = Fault> {
     sticky.chain(held.map(|(own, _)| Fault::Held(own)))
 }
 
-/// What instances and memories are given.
+/// The inputs of instances and memories.
 fn given(module: &Module) -> impl Iterator<Item = Sink> {
     let instances = module.instances.iter().enumerate();
     let ports = instances

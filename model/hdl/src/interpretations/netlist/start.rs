@@ -58,7 +58,7 @@ pub fn is_irrelevant(netlist: &Netlist, register: usize) -> bool {
     if unit.wires() > MOST_WIRES {
         return false;
     }
-    // Where registers start with anything, there are few states, and what nothing depends on is found at once.
+    // Where registers start with anything, states are few: the search is short if the register is irrelevant.
     [Same, Known(0)].into_iter().any(|others| {
         let mut start = Held {
             registers: vec![others; registers],

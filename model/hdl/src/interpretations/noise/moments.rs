@@ -20,7 +20,7 @@ impl Moments {
         Moments { mean: error, variance: 0.0, bound: error.abs() }
     }
 
-    /// Of a rounding that drops so many bits, in steps of `lsb`.
+    /// Of a rounding that drops `dropped` bits, in steps of `lsb`.
     pub(super) fn of_rounding(rounding: Rounding, dropped: u8, lsb: f64) -> Self {
         let part = 0.5f64.powi(dropped.into());
         let (mean, variance, bound) = match rounding {

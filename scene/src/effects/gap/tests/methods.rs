@@ -147,7 +147,7 @@ fn a_patch_without_load_lifts_off_from_contact_and_comes_to_rest() {
     }
 }
 
-/// Patches of all kinds, as many as two of those together and a rest: open, pulled in, closed, thrown open.
+/// Patches of all kinds, two whole groups of lanes and a remainder: open, pulled in, closed, thrown open.
 #[test]
 fn patches_side_by_side_are_those_of_each_alone() {
     let mut random = Stream::seed_from_u64(7);
