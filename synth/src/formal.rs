@@ -17,7 +17,7 @@ use std::path::Path;
 /// What SymbiYosys found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Verdict {
-    /// Every assertion holds: for ever (`prove`), or for N clocks after reset (`bmc`).
+    /// Every assertion holds: for ever (`prove`), or for so many clocks after reset (`bmc`).
     Holds,
     /// Some input breaks an assertion.
     Broken,
@@ -28,11 +28,11 @@ pub enum Verdict {
 /// How far to look.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Mode {
-    /// By induction over N clocks: for ever.
+    /// By induction over so many clocks: for ever.
     Prove(u64),
-    /// For N clocks after reset.
+    /// For so many clocks after reset.
     Bounded(u64),
-    /// Whether each `cover` can happen within N clocks after reset.
+    /// Whether each `cover` can happen within so many clocks after reset.
     Cover(u64),
 }
 
@@ -125,8 +125,8 @@ impl Claim<'_> {
     }
 }
 
-/// Which of several claims some input breaks within `clocks` clocks after reset. Their modules are read in one run of
-/// Yosys: SymbiYosys would start it three times for each.
+/// Which of several claims some input breaks within so many clocks after reset. Their modules are read in one run of Yosys:
+/// SymbiYosys would start it three times for each.
 ///
 /// # Errors
 /// The tools do not run, or do not understand a module.
@@ -204,7 +204,7 @@ fn live(module: &Module) -> HashSet<Node> {
     live
 }
 
-/// A wire, or the wire that it passes on whatever happens.
+/// A wire, or the one that it passes on whatever happens.
 fn resolve(module: &Module, node: Node) -> Node {
     match module.wires[node.0 as usize].op {
         Op::Select(_, a, b) if resolve(module, a) == resolve(module, b) => resolve(module, a),

@@ -29,7 +29,7 @@
 //! assert_eq!(Inputs::map(formats, |format| format.width).write.address, 8);
 //! ```
 
-use crate::signal::{Signal, Value};
+use crate::signal::{Signal, Value, operate};
 
 /// What the declaration says of a field.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -91,11 +91,14 @@ pub trait Choice<V: Value>: Copy {
 impl<V: Value> Choice<V> for Signal<V> {
     #[inline(always)]
     fn choose(bit: Signal<V>, set: Self, clear: Self) -> Self {
-        match V::known_bit(bit.value) {
-            Some(true) => set,
-            Some(false) => clear,
-            None => bit.select(set, clear),
-        }
+        operate!(
+            V,
+            match V::known_bit(bit.value) {
+                Some(true) => set,
+                Some(false) => clear,
+                None => bit.select(set, clear),
+            }
+        )
     }
 }
 

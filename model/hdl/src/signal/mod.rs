@@ -29,6 +29,16 @@ mod operators;
 
 use crate::format::{BIT, Format};
 
+/// An operation: in line where a core is clocked, out of line where blocks are elaborated. Elaborated blocks in one piece
+/// took half of the time in which this workspace's tests are compiled. A macro, since a closure that clocks cores is not
+/// always inlined.
+macro_rules! operate {
+    ($value:ty, $operation:expr) => {
+        if <$value>::ELABORATES { $crate::signal::out_of_line(|| $operation) } else { $operation }
+    };
+}
+pub(crate) use operate;
+
 /// The value of the clocked interpretation: a raw code.
 pub type Clocked = i64;
 
@@ -173,7 +183,7 @@ pub trait Value: Copy + std::fmt::Debug + 'static {
 /// A constant by its code.
 #[inline(always)]
 pub fn code<V: Value>(code: i64, format: Format) -> Signal<V> {
-    operate(|| Signal { value: V::raw(code, format), format })
+    operate!(V, Signal { value: V::raw(code, format), format })
 }
 
 /// A signal of this format with the value 0.
@@ -225,15 +235,9 @@ pub fn decides<V: Value>(_signal: &Signal<V>) -> bool {
     V::DECIDES
 }
 
-/// An operation in line where a core is clocked, out of line where blocks are elaborated: there, blocks in one piece
-/// took half of the time in which this workspace's tests are compiled.
-#[inline(always)]
-fn operate<V: Value>(operation: impl FnOnce() -> Signal<V>) -> Signal<V> {
-    if V::ELABORATES { out_of_line(operation) } else { operation() }
-}
-
+/// An operation of an elaborated block.
 #[inline(never)]
-fn out_of_line<T>(operation: impl FnOnce() -> T) -> T {
+pub(crate) fn out_of_line<T>(operation: impl FnOnce() -> T) -> T {
     operation()
 }
 
@@ -307,7 +311,7 @@ impl<V: Value> Signal<V> {
     /// alike.
     #[inline(always)]
     fn beyond(self, to: Format) -> Self {
-        operate(|| self.has_unlike_bits(to))
+        operate!(V, self.has_unlike_bits(to))
     }
 
     #[inline(always)]
@@ -327,7 +331,7 @@ impl<V: Value> Signal<V> {
     /// The same bits with the point moved: the number times `2^by`.
     #[inline(always)]
     pub fn scaled(self, by: i8) -> Self {
-        operate(|| Signal { value: V::scale(self.value, by), format: self.format.scaled(by) })
+        operate!(V, Signal { value: V::scale(self.value, by), format: self.format.scaled(by) })
     }
 
     /// The code as an integer: the number times `2^frac`.
@@ -347,7 +351,7 @@ impl<V: Value> Signal<V> {
     /// The magnitude; that of the most negative code too.
     #[inline(always)]
     pub fn abs(self) -> Self {
-        operate(|| {
+        operate!(V, {
             let to = Format::unsigned(self.format.width, self.format.frac);
             Signal { value: V::abs(self, to), format: to }
         })
@@ -356,7 +360,7 @@ impl<V: Value> Signal<V> {
     /// The exact square; 2B + 1 bits hold that of the most negative code.
     #[inline(always)]
     pub fn square(self) -> Self {
-        operate(|| {
+        operate!(V, {
             let product = self.format.product(self.format);
             let to = Format::unsigned(product.width - u8::from(self.format.signed), product.frac);
             Signal { value: V::square(self, to), format: to }
@@ -367,7 +371,7 @@ impl<V: Value> Signal<V> {
     /// copies of its sign.
     #[inline(always)]
     pub fn bits(self, low: u8, width: u8) -> Self {
-        operate(|| {
+        operate!(V, {
             let to = Format::unsigned(width, 0);
             Signal { value: V::bits(self, low, to), format: to }
         })
@@ -382,7 +386,7 @@ impl<V: Value> Signal<V> {
     /// This unsigned integer, with `low` to the right of it.
     #[inline(always)]
     pub fn concat(self, low: Self) -> Self {
-        operate(|| {
+        operate!(V, {
             let to = Format::unsigned(self.format.width + low.format.width, 0);
             Signal { value: V::concat(self, low, to), format: to }
         })
@@ -391,7 +395,7 @@ impl<V: Value> Signal<V> {
     /// Whether this is less than `other`.
     #[inline(always)]
     pub fn less_than(self, other: Self) -> Self {
-        operate(|| Signal { value: V::less(self, other), format: BIT })
+        operate!(V, Signal { value: V::less(self, other), format: BIT })
     }
 
     /// Whether this is at least `other`.
@@ -403,19 +407,19 @@ impl<V: Value> Signal<V> {
     /// Whether this equals `other`.
     #[inline(always)]
     pub fn equals(self, other: Self) -> Self {
-        operate(|| Signal { value: V::equal(self, other), format: BIT })
+        operate!(V, Signal { value: V::equal(self, other), format: BIT })
     }
 
     /// Whether this equals the integer `other`.
     #[inline(always)]
     pub fn is(self, other: u64) -> Self {
-        operate(|| self.equals(int(other)))
+        operate!(V, self.equals(int(other)))
     }
 
     /// The lesser of this and `most`, which has the same format.
     #[inline(always)]
     pub fn at_most(self, most: Self) -> Self {
-        operate(|| {
+        operate!(V, {
             debug_assert!(self.format == most.format);
             Signal { value: V::at_most(self, most), ..self }
         })
@@ -424,7 +428,7 @@ impl<V: Value> Signal<V> {
     /// `a` where this bit is set, else `b`.
     #[inline(always)]
     pub fn select(self, a: Self, b: Self) -> Self {
-        operate(|| {
+        operate!(V, {
             debug_assert!(self.format == BIT);
             let to = a.format.join(b.format);
             Signal { value: V::select(self.value, a, b, to), format: to }

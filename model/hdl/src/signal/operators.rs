@@ -9,7 +9,7 @@ impl<V: Value> Add for Signal<V> {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: Self) -> Self {
-        operate(|| {
+        operate!(V, {
             let to = self.format.sum(other.format);
             Signal { value: V::add(self, other, to), format: to }
         })
@@ -20,7 +20,7 @@ impl<V: Value> Sub for Signal<V> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
-        operate(|| {
+        operate!(V, {
             let to = self.format.difference(other.format);
             Signal { value: V::sub(self, other, to), format: to }
         })
@@ -31,7 +31,7 @@ impl<V: Value> Mul for Signal<V> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
-        operate(|| {
+        operate!(V, {
             let to = self.format.product(other.format);
             Signal { value: V::mul(self, other, to), format: to }
         })
@@ -51,7 +51,7 @@ impl<V: Value> Not for Signal<V> {
     type Output = Self;
     #[inline(always)]
     fn not(self) -> Self {
-        operate(|| {
+        operate!(V, {
             debug_assert!(self.format == BIT);
             Signal { value: V::not(self.value), format: BIT }
         })
@@ -62,7 +62,7 @@ impl<V: Value> BitAnd for Signal<V> {
     type Output = Self;
     #[inline(always)]
     fn bitand(self, other: Self) -> Self {
-        operate(|| {
+        operate!(V, {
             debug_assert!(self.format == BIT && other.format == BIT);
             Signal { value: V::and(self.value, other.value), format: BIT }
         })
@@ -73,7 +73,7 @@ impl<V: Value> BitOr for Signal<V> {
     type Output = Self;
     #[inline(always)]
     fn bitor(self, other: Self) -> Self {
-        operate(|| {
+        operate!(V, {
             debug_assert!(self.format == BIT && other.format == BIT);
             Signal { value: V::or(self.value, other.value), format: BIT }
         })
