@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Controls: scenes, experiments (presets), knobs, speed, and how the state of the page becomes a link.
+// Controls: options, knobs, and how the page's state becomes a link.
 
 import { fixed } from './draw.mjs';
 import { element, write } from './panels.mjs';
 
 export const SPEEDS = [[0.01, '1/100'], [0.1, '1/10'], [0.25, '1/4'], [1, '1'], [2, '2'], [4, '4']];
-const SPANS = [[10, '10 s'], [3, '3 s'], [1, '1 s'], [0.3, '0.3 s'], [0.1, '0.1 s']];
+export const SPANS = [[10, '10 s'], [3, '3 s'], [1, '1 s'], [0.3, '0.3 s'], [0.1, '0.1 s']];
+/** Range of a wall's knob about the place where the scene has it, mm. */
+const WALL_MM = 30;
 
 /** Fills a `select` with pairs `[value, text]`. */
 export function fill(select, pairs, value) {
@@ -13,87 +15,54 @@ export function fill(select, pairs, value) {
   select.value = String(value);
 }
 
-export const fillSpans = (select) => fill(select, SPANS, 10);
+const NAMES = ['preset', 'scene', 'case'];
 
-/** What a link says: scene or preset, and settings `key=value`. */
+/** What a link opens: a preset or a scene, its case, and settings `set=key=value`. */
 export function readLink(search) {
   const parameters = new URLSearchParams(search);
-  const set = parameters.getAll('set').filter((pair) => pair.includes('=')).map((pair) => {
-    const at = pair.indexOf('=');
-    return [pair.slice(0, at), pair.slice(at + 1)];
-  });
-  return { preset: parameters.get('preset'), scene: parameters.get('scene'), set: Object.fromEntries(set) };
+  const pairs = parameters.getAll('set').map((pair) => pair.split(/=(.*)/s)).filter((pair) => pair.length > 1);
+  const named = Object.fromEntries(NAMES.map((name) => [name, parameters.get(name)]));
+  return { ...named, set: Object.fromEntries(pairs) };
 }
 
-/** The inverse of {@link readLink}; parameters of other purposes, as a token, stay. */
-export function writeLink(search, { preset, scene, set }) {
+/** The inverse of {@link readLink}. Other parameters, such as a token, stay. */
+export function writeLink(search, wanted) {
   const parameters = new URLSearchParams(search);
-  for (const name of ['preset', 'scene', 'set']) parameters.delete(name);
-  if (preset) parameters.set('preset', preset);
-  else parameters.set('scene', scene);
-  for (const [key, value] of Object.entries(set)) parameters.append('set', `${key}=${value}`);
-  return `?${parameters.toString().replaceAll('%3D', '=')}`;
+  for (const name of [...NAMES, 'set']) parameters.delete(name);
+  for (const name of NAMES) if (wanted[name] != null) parameters.set(name, wanted[name]);
+  for (const [key, value] of Object.entries(wanted.set)) parameters.append('set', `${key}=${value}`);
+  return `?${parameters}`.replaceAll('%3D', '=');
 }
 
-/** The buttons of the experiments. */
-export class Presets {
-  constructor(box, open) {
-    Object.assign(this, { box, open });
-  }
-
-  build(presets, current) {
-    this.box.replaceChildren(...presets.map((preset) => {
-      const button = element('button', '', preset.label);
-      button.type = 'button';
-      button.title = preset.hint ?? '';
-      button.setAttribute('aria-pressed', String(preset.name === current));
-      button.onclick = () => this.open(preset);
-      return button;
-    }));
-  }
-}
-
-/** Sliders of a source's inputs. A knob of a pad acts at once; one of the scene sets the scene up again. */
+/** Sliders of a source's inputs. One of a pad or a wall acts at once; a setting of the scene sets the scene up again. */
 export class Knobs {
-  constructor(box, model, { send, open }) {
-    Object.assign(this, { box, model, send, open, values: new Map(), knobs: [], pending: new Map() });
+  constructor(box, model, send, open) {
+    Object.assign(this, { box, model, send, open, values: new Map(), pending: new Map() });
   }
 
+  /** Makes the knobs of a source whose scene was opened with the settings `set`. */
   build(set) {
-    const { hello } = this.model;
+    const { inputs, settings, walls } = this.model.hello;
     this.values.clear();
-    const inputs = hello.inputs.map((input) => ({ ...input, ...describe(input) }));
-    const scene = inputs.filter((input) => input.per !== 'pad');
-    this.knobs = [...inputs.filter((input) => input.per === 'pad'), ...this.extra(inputs)].map((input) => this.knob(input));
-    const again = scene.map((input) => this.knob({ ...input, value: set[input.name] ?? input.value, again: true }));
-    const rows = this.knobs.map((knob) => knob.row);
-    rows.push(this.buttons());
-    if (again.length) rows.push(element('h3', '', 'These set the scene up again'), ...again.map((knob) => knob.row));
-    this.box.replaceChildren(...rows);
-  }
-
-  /** Knobs that a source implies: the controller's target, and each wall's surface. */
-  extra(inputs) {
-    const { hello } = this.model;
-    const has = (word) => inputs.some((input) => input.name.includes(word));
-    const list = [];
-    if (hello.controller && !has('target')) {
-      list.push({ name: 'target', label: 'Target', unit: 'N', least: 0, most: hello.limits?.force_n ?? 0.9, value: 0, per: 'pad',
-        message: (n, pad) => ({ type: 'target', pad, n }) });
-    }
-    hello.walls.forEach((wall) => list.push({ name: `wall.${wall.axis}`, label: `Wall at ${wall.axis}`, unit: 'mm', least: -50, most: 50,
-      value: wall.mm ?? 0, message: (mm) => ({ type: 'wall', [`${wall.axis}_mm`]: mm }) }));
-    return list;
+    const ofPad = inputs.map((input) => {
+      const key = input.name.replace('pad.', '');
+      return this.knob({ ...input, key, ofPad: true, message: (value, pad) => ({ type: 'set', pad, [key]: value }) });
+    });
+    const ofWalls = walls.map(({ axis, mm }) => this.knob({
+      key: `${axis}_mm`, label: `Wall at ${axis}`, unit: 'mm', least: Math.round(mm) - WALL_MM, most: Math.round(mm) + WALL_MM, value: mm,
+      message: (value) => ({ type: 'wall', [`${axis}_mm`]: value }) }));
+    const ofScene = settings.filter(({ value, key }) => value != null || key in set).map((setting) =>
+      this.knob({ ...setting, value: set[setting.key] ?? setting.value, again: true }));
+    this.knobs = [...ofPad, ...ofWalls];
+    const heading = ofScene.length ? [element('h3', '', 'Settings: a change starts the scene again')] : [];
+    this.box.replaceChildren(...this.knobs.map(({ row }) => row), this.buttons(), ...heading, ...ofScene.map(({ row }) => row));
   }
 
   knob(input) {
-    const row = element('label', 'knob');
-    const slider = element('input');
-    const value = element('output');
-    const decimals = Math.max(0, Math.ceil(-Math.log10((input.most - input.least) / 150)));
+    const [row, slider, value] = [element('label', 'knob'), element('input'), element('output')];
+    const decimals = Math.max(0, Math.ceil(-Math.log10((input.most - input.least) / 100)));
     Object.assign(slider, { type: 'range', min: input.least, max: input.most, step: 10 ** -decimals });
     row.append(element('span', '', input.label), slider, value);
-    if (input.words) row.title = input.words;
     const show = () => write(value, `${fixed(Number(slider.value), decimals)} ${input.unit}`);
     const set = (number) => {
       slider.value = number;
@@ -103,47 +72,42 @@ export class Knobs {
       show();
       if (!input.again) this.change(input, Number(slider.value));
     };
-    if (input.again) slider.onchange = () => this.open({ [input.name]: Number(slider.value) });
+    if (input.again) slider.onchange = () => this.open({ [input.key]: Number(slider.value) });
     set(input.value);
     return { row, input, set };
   }
 
   buttons() {
     const row = element('p', 'buttons');
-    const { walls } = this.model.hello;
-    if (walls.length) {
-      this.off = element('button', '', 'Walls off');
-      this.off.onclick = () => this.send({ type: 'wall', ...(this.wallsOff ? this.surfaces() : { off: true }) });
-      row.append(this.off);
-    }
     const back = element('button', '', 'Let go');
     back.title = 'The scene’s script leads this pad again';
-    back.onclick = () => this.send({ type: 'release', pad: this.model.pad });
-    row.append(back);
-    for (const button of row.children) button.type = 'button';
+    back.onclick = () => {
+      for (const { input } of this.knobs) if (input.ofPad) this.values.delete(this.name(input));
+      this.send({ type: 'release', pad: this.model.pad }).then(() => this.choose());
+    };
+    this.off = element('button', '', 'Walls off');
+    this.off.onclick = () => this.send({ type: 'wall', ...(this.wallsOff ? this.surfaces() : { off: true }) });
+    row.append(...(this.model.hello.walls.length ? [this.off] : []), back);
     return row;
   }
 
   get wallsOff() {
-    const walls = this.model.latest?.walls ?? [];
-    return walls.length > 0 && walls.every((mm) => mm == null);
+    return this.model.latest?.walls.every((mm) => mm == null) ?? false;
   }
 
   surfaces() {
-    const of = (wall) => this.values.get(`wall.${wall.axis}`) ?? wall.mm ?? 0;
-    return Object.fromEntries(this.model.hello.walls.map((wall) => [`${wall.axis}_mm`, of(wall)]));
+    return Object.fromEntries(this.model.hello.walls.map(({ axis, mm }) => [`${axis}_mm`, this.values.get(`${axis}_mm`) ?? mm]));
   }
 
-  key(input) {
-    return input.per === 'pad' ? `${this.model.pad} ${input.name}` : input.name;
+  name(input) {
+    return input.ofPad ? `${this.model.pad} ${input.key}` : input.key;
   }
 
-  /** Sends the newest value of a knob once per picture at most. */
+  /** Sends the newest value of a knob, once per picture at most. */
   change(input, value) {
-    const { pad } = this.model;
-    this.values.set(this.key(input), value);
+    this.values.set(this.name(input), value);
     if (!this.pending.size) requestAnimationFrame(() => this.flush());
-    this.pending.set(this.key(input), input.message ? input.message(value, pad) : { type: 'set', pad, [input.name.replace(/^pad\./, '')]: value });
+    this.pending.set(this.name(input), input.message(value, this.model.pad));
   }
 
   flush() {
@@ -151,25 +115,15 @@ export class Knobs {
     this.pending.clear();
   }
 
-  /** Shows the values of the chosen pad. */
+  /** Shows the values of the chosen pad: those set here, else the load that its last frame had. */
   choose() {
-    for (const { input, set } of this.knobs) set(this.values.get(this.key(input)) ?? input.value);
+    const load = this.model.latest?.pads[this.model.pad]?.load_g;
+    for (const { input, set } of this.knobs) {
+      set(this.values.get(this.name(input)) ?? (input.key === 'load_g' ? load : null) ?? input.value);
+    }
   }
 
   draw() {
-    if (this.off?.isConnected) write(this.off, this.wallsOff ? 'Walls on' : 'Walls off');
+    write(this.off, this.wallsOff ? 'Walls on' : 'Walls off');
   }
-}
-
-const WORDS = {
-  load_g: ['Load', 'Weight with which the hand presses the pad on the sheet'],
-  target_n: ['Target', 'Haptic force that the controller holds'],
-  v_rms: ['Voltage', 'Haptic voltage across the pad'],
-};
-
-/** Label and explanation of an input; from its name where the source sends none. */
-function describe(input) {
-  const key = input.name.split('.').at(-1);
-  const [label, words] = WORDS[key] ?? [key.replace(/_[a-z0-9]+$/, '').replaceAll('_', ' ')];
-  return { label: input.label ?? label[0].toUpperCase() + label.slice(1), words: input.words ?? words };
 }

@@ -1,74 +1,65 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Shapes that the canvases share, and the palette of the style sheet.
+// What the canvases share: the style sheet's palette, shapes, and a view of the sheet in millimetres.
+
+import { place } from './model.mjs';
 
 const NAMES = ['page', 'raised', 'rule', 'ink', 'muted', 'grid', 'limit', 'measured', 'true', 'target', 'finger', 'force'];
+const FONT = '12px system-ui, sans-serif';
 
-/** Colours by name; read from the style sheet once, and again when the system's theme changes. */
+/** Colours by name and by number of a series. */
 export const colours = {};
+const hatches = new Map();
 
+/** Reads the palette: once, and again when the system's theme changes. */
 export function readColours() {
   const style = getComputedStyle(document.documentElement);
   for (const name of NAMES) colours[name] = style.getPropertyValue(`--${name}`).trim();
-  for (let k = 10; k < 16; k++) colours[k] = style.getPropertyValue(`--k${k}`).trim();
+  colours.series = [10, 11, 12, 13, 14, 15].map((k) => style.getPropertyValue(`--k${k}`).trim());
   hatches.clear();
 }
 
-const hatches = new Map();
-
-/** A canvas context in CSS pixels, cleared: `[context, width, height]`. */
-export function begin(canvas, height) {
-  const scale = window.devicePixelRatio || 1;
-  const width = canvas.clientWidth;
-  const [columns, rows] = [Math.round(width * scale), Math.round(height * scale)];
-  if (canvas.width !== columns || canvas.height !== rows) {
-    [canvas.width, canvas.height] = [columns, rows];
-    canvas.style.height = `${height}px`;
-  }
-  const context = canvas.getContext('2d');
-  context.setTransform(scale, 0, 0, scale, 0, 0);
-  context.clearRect(0, 0, width, height);
-  context.font = '12px system-ui, sans-serif';
-  context.lineCap = 'round';
-  return [context, width, height];
+/** A number with fixed decimals and a true minus sign; a dash where it is unknown. */
+export function fixed(value, decimals) {
+  if (!Number.isFinite(value)) return '–';
+  const text = value.toFixed(decimals);
+  return (Number(text) === 0 ? text.replace('-', '') : text).replace('-', '−');
 }
 
 export function line(g, points, colour, width = 1, dash = []) {
-  g.strokeStyle = colour;
-  g.lineWidth = width;
+  Object.assign(g, { strokeStyle: colour, lineWidth: width });
   g.setLineDash(dash);
   g.beginPath();
   for (const [x, y] of points) g.lineTo(x, y);
   g.stroke();
-  g.setLineDash([]);
 }
 
-export function ring(g, [x, y], radius, colour, width = 1.5) {
-  g.strokeStyle = colour;
-  g.lineWidth = width;
+function circle(g, [x, y], radius) {
+  g.setLineDash([]);
   g.beginPath();
   g.arc(x, y, radius, 0, 2 * Math.PI);
+}
+
+export function ring(g, at, radius, colour, width) {
+  Object.assign(g, { strokeStyle: colour, lineWidth: width });
+  circle(g, at, radius);
   g.stroke();
 }
 
-export function disc(g, [x, y], radius, colour, alpha = 1) {
-  g.globalAlpha = alpha;
-  g.fillStyle = colour;
-  g.beginPath();
-  g.arc(x, y, radius, 0, 2 * Math.PI);
+export function disc(g, at, radius, colour, alpha = 1) {
+  Object.assign(g, { fillStyle: colour, globalAlpha: alpha });
+  circle(g, at, radius);
   g.fill();
   g.globalAlpha = 1;
 }
 
-/** An arrow from `a` by `(dx, dy)`; nothing where it is shorter than 2 pixels. */
-export function arrow(g, [x, y], [dx, dy], colour, width = 3) {
+/** An arrow by `(dx, dy)`; nothing where it is shorter than 2 pixels. */
+export function arrow(g, [x, y], [dx, dy], colour, width) {
   const size = Math.hypot(dx, dy);
   if (size < 2) return;
   const head = Math.min(3 * width, size);
   const [ux, uy] = [dx / size, dy / size];
   const [bx, by] = [x + dx - head * ux, y + dy - head * uy];
-  g.lineCap = 'butt';
   line(g, [[x, y], [bx, by]], colour, width);
-  g.lineCap = 'round';
   g.fillStyle = colour;
   g.beginPath();
   g.moveTo(x + dx, y + dy);
@@ -77,50 +68,102 @@ export function arrow(g, [x, y], [dx, dy], colour, width = 3) {
   g.fill();
 }
 
-/** A spring between two points: `turns` zigzags of `size` pixels to each side. */
+/** A spring between two points: zigzags of `size` pixels to each side. */
 export function spring(g, [x, y], [tx, ty], colour, turns = 6, size = 5) {
   const [dx, dy] = [tx - x, ty - y];
   const span = Math.hypot(dx, dy);
   if (span < 1) return;
-  const [nx, ny] = [(-dy / span) * size, (dx / span) * size];
-  const at = (share, side) => [x + share * dx + side * nx, y + share * dy + side * ny];
-  const points = [at(0, 0), at(0.12, 0)];
-  for (let k = 0; k < 2 * turns; k++) points.push(at(0.12 + (0.76 * (k + 0.5)) / (2 * turns), k % 2 ? 1 : -1));
-  line(g, [...points, at(0.88, 0), at(1, 0)], colour, 1.25);
+  const at = (share, side) => [x + share * dx - (side * size * dy) / span, y + share * dy + (side * size * dx) / span];
+  const zigzag = Array.from({ length: 2 * turns }, (_, k) => at(0.12 + (0.76 * (k + 0.5)) / (2 * turns), k % 2 ? 1 : -1));
+  line(g, [at(0, 0), at(0.12, 0), ...zigzag, at(0.88, 0), at(1, 0)], colour, 1.25);
 }
 
-/** A hatched area: slanting lines `gap` pixels apart. */
-export function hatch(g, x, y, width, height, gap = 8) {
-  if (width <= 0 || height <= 0) return;
-  if (!hatches.has(gap)) hatches.set(gap, g.createPattern(tile(gap), 'repeat'));
-  g.fillStyle = hatches.get(gap);
-  g.fillRect(x, y, width, height);
+/** Slanting lines `gap` pixels apart. */
+function hatch(g, gap) {
+  if (!hatches.has(gap)) {
+    const tile = Object.assign(document.createElement('canvas'), { width: gap, height: gap });
+    const context = tile.getContext('2d');
+    context.globalAlpha = 0.55;
+    for (const shift of [-gap, 0, gap]) line(context, [[shift, gap], [shift + gap, 0]], colours.muted);
+    hatches.set(gap, g.createPattern(tile, 'repeat'));
+  }
+  return hatches.get(gap);
 }
 
-function tile(gap) {
-  const canvas = document.createElement('canvas');
-  canvas.width = canvas.height = gap;
-  const g = canvas.getContext('2d');
-  g.globalAlpha = 0.55;
-  for (const shift of [-gap, 0, gap]) line(g, [[shift, gap], [shift + gap, 0]], colours.muted, 1);
-  return canvas;
-}
-
-/** Text with a halo of the page's colour, so that lines behind it do not disturb. */
-export function label(g, text, x, y, colour, align = 'left', font = '12px system-ui, sans-serif') {
-  g.font = font;
-  g.textAlign = align;
-  g.lineJoin = 'round';
-  g.strokeStyle = colours.page;
-  g.lineWidth = 3;
+/** Text with a halo, so that lines behind it do not disturb; `style` is the beginning of a font. */
+export function label(g, text, x, y, colour, align = 'left', style = '') {
+  const halo = { strokeStyle: colours.page, lineWidth: 3, lineJoin: 'round', fillStyle: colour };
+  Object.assign(g, { font: style + FONT, textAlign: align, ...halo });
+  g.setLineDash([]);
   g.strokeText(text, x, y);
-  g.fillStyle = colour;
   g.fillText(text, x, y);
 }
 
-/** A number with fixed decimals and a true minus sign; a dash where it is unknown. */
-export function fixed(value, decimals) {
-  if (value == null || !Number.isFinite(value)) return '–';
-  const text = value.toFixed(decimals);
-  return (Number(text) === 0 ? text.replace('-', '') : text).replace('-', '−');
+/** Haptic force on a pad as a vector on the screen (y down), N: against the hand. Null without a direction. */
+export function forceVector(pad) {
+  const newtons = pad.true_force_n ?? pad.force_n;
+  if (newtons == null || !(pad.hand_n > 0.005)) return null;
+  return [(-pad.hand_x_n / pad.hand_n) * newtons, (pad.hand_y_n / pad.hand_n) * newtons];
+}
+
+/** A canvas as a view of the sheet: `origin`, in mm, lies at its middle, and a millimetre has `scale` pixels. */
+export class View {
+  constructor(canvas, model) {
+    Object.assign(this, { canvas, model, scale: 1, origin: [0, 0], width: 0, height: 0 });
+  }
+
+  /** A cleared context in CSS pixels. A height makes the canvas so high; without one the style sheet does. */
+  begin(height) {
+    const { canvas } = this;
+    const ratio = window.devicePixelRatio || 1;
+    if (height) canvas.style.height = `${height}px`;
+    [this.width, this.height] = [canvas.clientWidth, height ?? canvas.clientHeight];
+    const [columns, rows] = [this.width, this.height].map((size) => Math.round(size * ratio));
+    if (canvas.width !== columns || canvas.height !== rows) [canvas.width, canvas.height] = [columns, rows];
+    const g = canvas.getContext('2d');
+    g.setTransform(ratio, 0, 0, ratio, 0, 0);
+    g.clearRect(0, 0, this.width, this.height);
+    return g;
+  }
+
+  /** Pixels of a place in millimetres. */
+  at([x, y]) {
+    return [this.width / 2 + (x - this.origin[0]) * this.scale, this.height / 2 - (y - this.origin[1]) * this.scale];
+  }
+
+  /** Where a pointer is, mm. */
+  toMm(event) {
+    const box = this.canvas.getBoundingClientRect();
+    const [x, y] = [event.clientX - box.left - this.width / 2, event.clientY - box.top - this.height / 2];
+    return [this.origin[0] + x / this.scale, this.origin[1] - y / this.scale];
+  }
+
+  /** The walls within a box of half-widths `reach` about `middle`, in mm: hatched, with their surface as a line. */
+  walls(g, middle, reach, gap) {
+    this.model.hello.walls.forEach((wall, k) => {
+      const mm = this.model.shown.walls[k];
+      if (mm == null) return;
+      const axis = wall.axis === 'x' ? 0 : 1;
+      const low = middle.map((centre, of) => centre - reach[of]);
+      const high = middle.map((centre, of) => centre + reach[of]);
+      const surface = Math.min(high[axis], Math.max(low[axis], mm));
+      (wall.inside === 'below' ? high : low)[axis] = surface;
+      const [[left, bottom], [right, top]] = [this.at(low), this.at(high)];
+      g.fillStyle = hatch(g, gap);
+      g.fillRect(left, top, right - left, bottom - top);
+      if (surface !== mm) return;
+      const ends = [low, high].map((end) => end.map((of, along) => (along === axis ? mm : of)));
+      line(g, ends.map((end) => this.at(end)), colours.ink, 2);
+    });
+  }
+
+  /** How deep a pad is in each wall, mm: `[axis, surface, depth]`. */
+  depths(pad) {
+    return this.model.hello.walls.map((wall, k) => {
+      const axis = wall.axis === 'x' ? 0 : 1;
+      const mm = this.model.shown.walls[k];
+      const depth = mm == null ? 0 : (mm - place(pad)[axis]) * (wall.inside === 'below' ? 1 : -1);
+      return [axis, mm, depth];
+    });
+  }
 }

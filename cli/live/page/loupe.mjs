@@ -1,125 +1,100 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // Twenty millimetres around the finger of the chosen pad, where wall, depth, spring and force are large enough to see.
 
-import { arrow, begin, colours, disc, fixed, hatch, label, line, ring, spring } from './draw.mjs';
-import { place } from './model.mjs';
-import { forceVector } from './sheet.mjs';
+import { arrow, colours, disc, fixed, forceVector, label, line, ring, spring, View } from './draw.mjs';
+import { finger, place } from './model.mjs';
 
 const WIDTH_MM = 20;
 const PIXELS_PER_N = 110;
-/** The view moves only when the finger leaves this share of it, so that it is calm. */
+/** The view moves only when the finger leaves this share of it on each side of the middle, so that it is calm. */
 const CALM = 0.3;
 
-export class Loupe {
-  constructor(canvas, model) {
-    Object.assign(this, { canvas, model, middle: null, pad: null });
+export class Loupe extends View {
+  /** A drag anywhere takes the chosen pad. */
+  hit() {
+    return this.model.pad;
   }
 
-  /** Pixels per millimetre. */
-  get scale() {
-    return this.canvas.clientWidth / WIDTH_MM;
-  }
-
-  x(mm) {
-    return this.canvas.clientWidth / 2 + (mm - this.middle[0]) * this.scale;
-  }
-
-  y(mm) {
-    return this.height / 2 - (mm - this.middle[1]) * this.scale;
+  /** Only differences count, since the view moves. */
+  toMm(event) {
+    return [event.clientX / this.scale, -event.clientY / this.scale];
   }
 
   draw() {
-    this.height = Math.round(Math.min(this.canvas.clientWidth, window.innerWidth < 700 ? 260 : 400));
-    const [g, width, height] = begin(this.canvas, this.height);
+    const g = this.begin();
     const pad = this.model.shown?.pads[this.model.pad];
     if (!pad || place(pad)[0] == null) return;
-    const finger = pad.finger_x_mm == null ? place(pad) : [pad.finger_x_mm, pad.finger_y_mm];
-    this.follow(finger);
-    this.drawGrid(g, width, height);
-    this.drawWalls(g, width, height);
-    this.drawPad(g, pad, finger);
-    this.drawScale(g, width, height);
+    this.scale = this.width / WIDTH_MM;
+    this.follow(finger(pad));
+    const reach = [this.width, this.height].map((size) => size / 2 / this.scale);
+    this.drawGrid(g, reach);
+    disc(g, this.at(place(pad)), this.rim, colours.true, 0.06);
+    // A little more than is seen, so that a surface at the edge is no line there.
+    this.walls(g, this.origin, reach.map((mm) => mm + 1), 10);
+    this.drawPad(g, pad);
+    const [right, bottom] = [this.width - 12, this.height - 12];
+    line(g, [[right - 5 * this.scale, bottom], [right, bottom]], colours.muted, 3);
+    label(g, '5 mm', right - 2.5 * this.scale, bottom - 7, colours.muted, 'center');
   }
 
-  follow(finger) {
-    if (this.pad !== this.model.pad) [this.pad, this.middle] = [this.model.pad, [...finger]];
-    const room = [CALM * WIDTH_MM, (CALM * this.height) / this.scale];
-    for (const axis of [0, 1]) {
-      const off = finger[axis] - this.middle[axis];
-      if (Math.abs(off) > room[axis]) this.middle[axis] = finger[axis] - Math.sign(off) * room[axis];
-    }
+  get rim() {
+    return (this.model.hello.pad_diameter_mm / 2) * this.scale;
   }
 
-  drawGrid(g, width, height) {
-    const [cx, cy] = this.middle.map(Math.round);
-    for (let k = -WIDTH_MM / 2 - 1; k <= WIDTH_MM / 2 + 1; k++) {
-      const colour = (mm) => (mm % 5 ? colours.grid : colours.rule);
-      line(g, [[this.x(cx + k), 0], [this.x(cx + k), height]], colour(cx + k));
-      line(g, [[0, this.y(cy + k)], [width, this.y(cy + k)]], colour(cy + k));
-    }
-  }
-
-  drawWalls(g, width, height) {
-    this.model.hello.walls.forEach((wall, k) => {
-      const mm = this.model.shown.walls[k];
-      if (mm == null) return;
-      const below = wall.inside === 'below';
-      if (wall.axis === 'x') {
-        const at = Math.min(Math.max(this.x(mm), -2), width + 2);
-        hatch(g, below ? 0 : at, 0, below ? at : width - at, height, 10);
-        line(g, [[at, 0], [at, height]], colours.ink, 2);
-      } else {
-        const at = Math.min(Math.max(this.y(mm), -2), height + 2);
-        hatch(g, 0, below ? at : 0, width, below ? height - at : at, 10);
-        line(g, [[0, at], [width, at]], colours.ink, 2);
-      }
+  follow(mm) {
+    const { pad, hello } = this.model;
+    if (this.of !== `${pad} ${hello.scene}`) [this.of, this.origin] = [`${pad} ${hello.scene}`, mm];
+    this.origin = this.origin.map((origin, axis) => {
+      const room = (CALM * [this.width, this.height][axis]) / this.scale;
+      return Math.min(mm[axis] + room, Math.max(mm[axis] - room, origin));
     });
   }
 
-  drawPad(g, pad, finger) {
-    const { truth, pad_diameter_mm } = this.model.hello;
-    const [x, y] = place(pad);
-    const centre = [this.x(x), this.y(y)];
-    const tip = [this.x(finger[0]), this.y(finger[1])];
-    const colour = truth ? colours.true : colours.measured;
-    ring(g, centre, (pad_diameter_mm / 2) * this.scale, colour, 2);
-    this.drawDepths(g, [x, y]);
+  drawGrid(g, [w, h]) {
+    const [x, y] = this.origin;
+    const shade = (mm) => (mm % 5 ? colours.grid : colours.rule);
+    for (let mm = Math.ceil(x - w); mm <= x + w; mm++) line(g, [[mm, y - h], [mm, y + h]].map((of) => this.at(of)), shade(mm));
+    for (let mm = Math.ceil(y - h); mm <= y + h; mm++) line(g, [[x - w, mm], [x + w, mm]].map((of) => this.at(of)), shade(mm));
+  }
+
+  drawPad(g, pad) {
+    const [centre, tip] = [this.at(place(pad)), this.at(finger(pad))];
+    const colour = this.model.hello.truth ? colours.true : colours.measured;
+    ring(g, centre, this.rim, colour, 1.5);
+    this.drawDepths(g, pad, centre);
     if (pad.finger_x_mm != null) spring(g, centre, tip, colours.finger);
     disc(g, centre, 11, colours.page, 0.9);
     ring(g, centre, 11, colour, 3);
-    if (pad.x_mm != null) disc(g, [this.x(pad.x_mm), this.y(pad.y_mm)], 5, colours.measured);
-    if (pad.finger_x_mm != null) ring(g, tip, 17, colours.finger, 3);
+    if (pad.x_mm != null) disc(g, this.at([pad.x_mm, pad.y_mm]), 5, colours.measured);
+    if (pad.finger_x_mm != null) {
+      ring(g, tip, 17, colours.finger, 3);
+      if (Math.hypot(tip[0] - centre[0], tip[1] - centre[1]) > 45) {
+        label(g, 'finger', tip[0], tip[1] + 32, colours.muted, 'center');
+        label(g, 'pad', centre[0], centre[1] + 25, colours.muted, 'center');
+      }
+    }
+    this.drawForce(g, pad, centre);
+  }
+
+  drawForce(g, pad, [x, y]) {
     const force = forceVector(pad);
     if (!force) return;
     const [fx, fy] = force.map((n) => n * PIXELS_PER_N);
-    arrow(g, centre, [fx, fy], colours.force, 5);
-    if (Math.hypot(fx, fy) > 25) {
-      label(g, `${fixed(Math.hypot(...force), 2)} N`, centre[0] + fx / 2, centre[1] + fy / 2 - 20, colours.force,
-        'center', '600 14px system-ui, sans-serif');
+    arrow(g, [x, y], [fx, fy], colours.force, 5);
+    if (Math.hypot(fx, fy) < 20) return;
+    label(g, `${fixed(Math.hypot(...force), 2)} N`, x + fx / 2, y + fy / 2 - 18, colours.ink, 'center', '600 ');
+  }
+
+  /** A dimension from the surface of each wall that the pad is in to the pad's centre. */
+  drawDepths(g, pad, centre) {
+    for (const [axis, mm, depth] of this.depths(pad)) {
+      if (!(depth > 0)) continue;
+      const surface = this.at(place(pad).map((of, along) => (along === axis ? mm : of)));
+      const ends = [surface, centre].map(([x, y]) => (axis ? [x + 40, y] : [x, y + 46]));
+      line(g, ends, colours.ink, 1.5);
+      for (const [x, y] of ends) line(g, axis ? [[x - 5, y], [x + 5, y]] : [[x, y - 5], [x, y + 5]], colours.ink, 1.5);
+      const [x, y] = [0, 1].map((along) => (ends[0][along] + ends[1][along]) / 2);
+      label(g, `${fixed(depth, 2)} mm deep`, axis ? x + 8 : x, axis ? y + 4 : y + 18, colours.ink, axis ? 'left' : 'center');
     }
-  }
-
-  /** Dimension lines from each wall that the pad is in to the pad's centre. */
-  drawDepths(g, [x, y]) {
-    this.model.hello.walls.forEach((wall, k) => {
-      const mm = this.model.shown.walls[k];
-      const centre = wall.axis === 'x' ? x : y;
-      const depth = mm == null ? 0 : wall.inside === 'below' ? mm - centre : centre - mm;
-      if (depth <= 0) return;
-      const ends = wall.axis === 'x' ? [[mm, y], [x, y]] : [[x, mm], [x, y]];
-      const shift = wall.axis === 'x' ? [0, 34] : [34, 0];
-      const points = ends.map(([a, b]) => [this.x(a) + shift[0], this.y(b) + shift[1]]);
-      line(g, points, colours.ink, 1.5);
-      for (const [a, b] of points) line(g, [[a - shift[1] / 34, b - shift[0] / 34], [a, b]], colours.ink, 6);
-      const [[ax, ay], [bx, by]] = points;
-      label(g, `${fixed(depth, 2)} mm deep`, (ax + bx) / 2 + shift[0] / 4, (ay + by) / 2 + (shift[1] ? 18 : 4),
-        colours.ink, shift[1] ? 'center' : 'left');
-    });
-  }
-
-  drawScale(g, width, height) {
-    const [left, bottom] = [width - 12 - 5 * this.scale, height - 12];
-    line(g, [[left, bottom - 4], [left, bottom], [width - 12, bottom], [width - 12, bottom - 4]], colours.muted, 1.5);
-    label(g, '5 mm', width - 12 - 2.5 * this.scale, bottom - 6, colours.muted, 'center');
   }
 }

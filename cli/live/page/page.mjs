@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // The page: connects the source to the model, the model to what is drawn, and controls to commands.
 
-import { fill, fillSpans, Knobs, Presets, readLink, SPEEDS, writeLink } from './controls.mjs';
+import { fill, Knobs, readLink, SPANS, SPEEDS, writeLink } from './controls.mjs';
 import { fixed, readColours } from './draw.mjs';
 import { Loupe } from './loupe.mjs';
-import { Model, STALE_MS } from './model.mjs';
-import { Bars, element, Events, PadTable, Speech, write } from './panels.mjs';
+import { Model } from './model.mjs';
+import { Bars, drawEvents, element, PadTable, Speech, write } from './panels.mjs';
 import { Leader, leadByPointer, listenToKeys } from './pointer.mjs';
 import { Link, STATES } from './protocol.mjs';
 import { Sheet } from './sheet.mjs';
@@ -13,142 +13,146 @@ import { SlotPlot } from './slot.mjs';
 import { Strips } from './strips.mjs';
 
 const $ = (id) => document.getElementById(id);
-/** Numbers change this often at most, so that they can be read. */
+/** Numbers change at most this often, so that they can be read. */
 const TEXT_MS = 100;
 const NOTICE_MS = 6000;
+/** Without frames for this long, the values shown are called old. */
+const STALE_MS = 1500;
 
+readColours();
 const model = new Model();
 const sheet = new Sheet($('sheet'), model);
 const loupe = new Loupe($('loupe'), model);
 const strips = new Strips($('strips'), model, draw);
-const slotPlot = new SlotPlot($('slot'), $('slot-channels'), $('slot-facts'));
+const slotPlot = new SlotPlot($('slot'), $('slot-channels'), $('slot-facts'), model);
 const bars = new Bars($('bars'), model);
-const pads = new PadTable($('pads'), model, choose);
-const events = new Events($('events'), model, ({ time_s }) => freeze(time_s));
-const speech = new Speech($('speech'), model);
+const table = new PadTable($('pads'), model, choose);
+const knobs = new Knobs($('knobs'), model, send, (set) => open({ ...opened, set: { ...opened.set, ...set } }));
 const leader = new Leader(model, send);
-const knobs = new Knobs($('knobs'), model, { send, open: (set) => open({ ...chosen, set: { ...chosen.set, ...set } }) });
-const presets = new Presets($('presets'), (preset) => open({ preset: preset.name, scene: preset.scene, set: { ...preset.set } }));
-
-/** What is open: as a link says it. */
-let chosen = { preset: null, scene: null, set: {} };
-let asked = readLink(location.search);
-let [speed, paused, recording] = [1, false, false];
-let [drawing, textAt, framesAt, noticeTimer] = [false, 0, performance.now(), 0];
-
-readColours();
-fill($('speed'), SPEEDS, 1);
-fillSpans($('span'));
-for (const [word, words] of Object.entries(STATES)) $('glossary').append(element('dt', '', word), element('dd', '', words));
-const link = new Link(`${location.protocol === 'https:' ? 'wss' : 'ws'}://${location.host}/ws${location.search}`, accept, connected);
+let speech = new Speech($('speech'), model);
+/** What is open, and what the page's address asks for, as links say it. */
+let [opened, asked] = [{ set: {} }, readLink(location.search)];
+let [paused, recording, drawing] = [false, false, false];
+let [text_ms, frames_ms, textTimer, noticeTimer] = [0, performance.now(), 0, 0];
+const link = new Link(`${location.origin.replace('http', 'ws')}/ws${location.search}`, accept, connected);
 
 /** Sends a command; a refusal is shown. */
 function send(command) {
   return link.send(command).catch((error) => notice(error.message));
 }
 
-function notice(text) {
-  $('notice').textContent = text;
-  $('notice').hidden = false;
+function notice(text = '') {
+  write($('notice'), text);
+  $('notice').hidden = !text;
   clearTimeout(noticeTimer);
-  noticeTimer = setTimeout(() => ($('notice').hidden = true), NOTICE_MS);
+  noticeTimer = setTimeout(notice, NOTICE_MS);
 }
 
 function connected(yes) {
   model.lost = !yes;
-  if (!yes) [recording, paused] = [false, false];
-  honest();
+  showRecording(false);
+  checkAge();
   draw();
 }
 
 const MESSAGES = {
   hello: acceptHello,
   frames(message) {
-    if (!model.hello) return;
     model.acceptFrames(message);
-    framesAt = performance.now();
-    if (model.stale) honest();
-    draw();
+    frames_ms = performance.now();
+    if (model.stale) checkAge();
   },
   status(message) {
     model.status = message;
-    draw();
+    paused = message.asked_speed === 0 || message.stepped;
+    if (message.opening) notice(`Setting up ${message.opening} …`);
+    checkAge();
   },
   event(message) {
     model.acceptEvent(message);
-    events.draw();
+    drawEvents($('events'), model, pickEvent);
   },
-  slot: (message) => slotPlot.show(message, model.hello.pads),
+  slot: (message) => slotPlot.show(message),
   recorded: download,
   error: (message) => notice(message.message),
 };
 
 function accept(message) {
   MESSAGES[message.type]?.(message);
+  draw();
 }
 
 function acceptHello(hello) {
   model.acceptHello(hello);
-  if (chosen.scene !== hello.scene) chosen = { preset: null, scene: hello.scene, set: {} };
-  const preset = hello.presets.find(({ name }) => name === chosen.preset);
+  if (opened.scene !== hello.scene) opened = { scene: hello.scene, set: {} };
   document.body.className = hello.truth ? '' : 'no-truth';
   document.title = `${hello.scene} – hapticore live`;
   fill($('scene'), hello.scenes.map((name) => [name, name]), hello.scene);
-  write($('facts'), [`${hello.fidelity} core`, `profile ${hello.profile}`, `slots of ${hello.slot_us} µs`].join(' · '));
-  write($('hint'), preset?.hint ?? hint(hello));
-  presets.build(hello.presets, chosen.preset);
-  knobs.build(chosen.set);
+  fill($('case'), hello.cases.map((name, index) => [index, name]), hello.case_index);
+  $('case').parentElement.hidden = hello.cases.length < 2;
+  if (!SPEEDS.some(([speed]) => speed === hello.speed) && hello.speed) SPEEDS.push([hello.speed, fixed(hello.speed, 2)]);
+  fill($('speed'), SPEEDS, hello.speed || 1);
+  write($('facts'), `${hello.fidelity} core · profile ${hello.profile} · slots of ${hello.slot_us} µs`);
+  showTexts(hello);
+  knobs.build(opened.set);
   bars.build();
-  pads.build();
+  table.build();
   strips.build();
-  slotPlot.clear();
-  speech.clear();
-  events.draw();
+  drawEvents($('events'), model, pickEvent);
+  speech = new Speech($('speech'), model);
   choose(model.pad);
-  honest();
+  checkAge();
   openAsked(hello);
 }
 
-/** What to do with a scene that no preset explains. */
-function hint(hello) {
-  const wall = hello.walls.length ? ' into the hatched wall: the deeper it goes, the harder the sheet brakes it.'
-    : ': the core measures where it is, and how hard the sheet holds it.';
-  return `${hello.title ?? hello.scene}. Drag a pad${wall}`;
+/** Presets, hint and warnings. */
+function showTexts({ presets, title, scene, walls, warnings }) {
+  const current = presets.find(({ name }) => name === opened.preset);
+  const wall = walls.length ? ' into the hatched wall: the deeper it goes, the harder the sheet brakes it.' : ' and see what the core measures.';
+  write($('hint'), current?.hint ?? `${title || scene}. Drag a pad${wall}`);
+  $('presets').replaceChildren(...presets.map((preset) => {
+    const button = element('button', '', preset.label);
+    button.ariaPressed = preset === current;
+    button.onclick = () => open({ preset: preset.name, scene: preset.scene, case: preset.case, set: { ...preset.set } });
+    return button;
+  }));
+  $('warnings').hidden = !warnings.length;
+  write($('warnings').firstElementChild, `Before you use these results (${warnings.length})`);
+  $('warnings').lastElementChild.replaceChildren(...warnings.map((text) => element('li', '', text)));
 }
 
 /** Opens what the page's address asks for, once. */
-function openAsked(hello) {
-  const { preset, scene, set } = asked;
-  asked = {};
-  const known = hello.presets.find(({ name }) => name === preset);
-  if (preset && !known) notice(`preset: expected one of ${hello.presets.map(({ name }) => name).join(', ')}, got ${preset}`);
-  if (known) open({ preset, scene: known.scene, set: { ...known.set, ...set } });
-  else if (scene && (scene !== hello.scene || Object.keys(set).length)) open({ preset: null, scene, set });
+function openAsked({ presets, scene }) {
+  const wanted = asked;
+  asked = { set: {} };
+  const preset = presets.find(({ name }) => name === wanted.preset);
+  if (preset) open({ preset: preset.name, scene: preset.scene, case: preset.case, set: { ...preset.set, ...wanted.set } });
+  else if (wanted.preset) notice(`preset: expected one of ${presets.map(({ name }) => name).join(', ')}; got ${wanted.preset}`);
+  else if (Object.keys(wanted.set).length || wanted.case || (wanted.scene ?? scene) !== scene) open({ ...wanted, scene: wanted.scene ?? scene });
 }
 
 async function open(wanted) {
-  const before = chosen;
-  chosen = { preset: wanted.preset ?? null, scene: wanted.scene, set: wanted.set ?? {} };
+  const before = opened;
+  opened = wanted;
   notice(`Setting up ${wanted.scene} …`);
   try {
-    await link.send({ type: 'open', scene: wanted.scene, set: chosen.set });
-    $('notice').hidden = true;
-    history.replaceState(null, '', writeLink(location.search, chosen));
+    await link.send({ type: 'open', scene: wanted.scene, case: wanted.case, set: wanted.set });
+    notice();
+    history.replaceState(null, '', writeLink(location.search, wanted));
   } catch (error) {
-    chosen = before;
-    if (model.hello) $('scene').value = model.hello.scene;
+    opened = before;
+    $('scene').value = model.hello.scene;
+    knobs.build(before.set);
     notice(error.message);
   }
 }
 
 function choose(number) {
   model.pad = number;
-  const { name } = model.hello.pads[number];
-  write($('strips-pad'), `of the pad ${number + 1} ${name}`);
-  write($('knobs-pad'), `pad ${number + 1} ${name}`);
-  write($('loupe-facts'), `20 mm around the finger of pad ${number + 1}`);
+  const name = `pad ${number + 1} ${model.hello.pads[number].name}`;
+  for (const id of ['strips-pad', 'knobs-pad', 'loupe-pad']) write($(id), name);
   knobs.choose();
-  textAt = 0;
+  text_ms = 0;
   draw();
 }
 
@@ -157,156 +161,126 @@ function freeze(time_s) {
   draw();
 }
 
-function toggleFreeze() {
-  if (model.frozen) follow();
-  else freeze();
-}
-
-/** The picture follows the source again. */
-function follow() {
-  model.follow();
-  draw();
-}
+const follow = () => model.follow();
+const toggleFreeze = () => (model.frozen ? (follow(), draw()) : freeze());
+const pickEvent = ({ pad, time_s }) => (choose(pad), freeze(time_s));
 
 /** Says plainly whether what the page shows is of now. */
-function honest() {
-  model.stale = !model.lost && !paused && model.latest !== null && performance.now() - framesAt > STALE_MS;
+function checkAge() {
+  model.stale = !model.lost && !paused && model.latest !== null && performance.now() - frames_ms > STALE_MS;
   const old = model.latest ? ' The values below are old.' : '';
   const text = model.lost ? `No connection to hapticore.${old} Trying again every second …`
-    : model.stale ? `No new values from the source.${old}` : '';
+    : model.status.stopped ? `The source has stopped: ${model.status.stopped}.${old}` : model.stale ? `No new values.${old}` : '';
   $('banner').hidden = !text;
   write($('banner'), text);
-  document.body.classList.toggle('lost', model.lost || model.stale);
+  document.body.classList.toggle('lost', Boolean(text));
 }
 
 setInterval(() => {
   const before = model.stale;
-  honest();
+  checkAge();
   if (before !== model.stale) draw();
   if (model.hello) speech.hear(performance.now());
 }, 300);
 
-/** Draws once with the next picture of the screen. */
+/** Draws, once, with the next picture of the screen. */
 function draw() {
   if (drawing || !model.hello) return;
   drawing = true;
   requestAnimationFrame(paint);
 }
 
-function paint(now) {
+function paint(now_ms) {
   drawing = false;
   sheet.draw();
   loupe.draw();
   strips.draw();
   bars.draw();
   $('sheet').dataset.slot = model.shown?.slot ?? '';
-  if (now - textAt >= TEXT_MS) {
-    textAt = now;
-    paintText();
-  } else {
-    clearTimeout(paint.later);
-    paint.later = setTimeout(paintText, TEXT_MS);
-  }
+  clearTimeout(textTimer);
+  if (now_ms - text_ms >= TEXT_MS) paintText(now_ms);
+  else textTimer = setTimeout(() => paintText(performance.now()), TEXT_MS);
 }
 
-function paintText() {
-  if (!model.hello) return;
-  pads.draw();
-  strips.drawValues();
-  knobs.draw();
+function paintText(now_ms) {
+  text_ms = now_ms;
+  for (const part of [table, knobs]) part.draw();
+  for (const part of [strips, bars]) part.drawValues();
   const { shown, status, frozen } = model;
-  write($('speed-now'), paused ? 'paused' : status.speed == null ? '' : `${fixed(status.speed, 2)} × real time`);
-  $('speed-now').classList.toggle('bad', !paused && status.speed < 0.95 * speed);
-  write($('slot-now'), shown ? `slot ${shown.slot} · ${fixed(shown.time_s, 2)} s` : '');
+  const slow = !paused && status.speed < 0.95 * status.asked_speed;
+  write($('speed-now'), paused ? 'Paused' : status.speed == null ? '' : `${fixed(status.speed, 2)} × real time${slow ? ': too slow' : ''}`);
+  $('speed-now').className = slow ? 'bad' : '';
+  write($('slot-now'), shown ? `${fixed(shown.time_s, 2)} s, slot ${shown.slot}` : '');
   write($('answer-now'), link.answer_ms == null ? '' : `answers in ${fixed(link.answer_ms, 0)} ms`);
-  $('freeze').setAttribute('aria-pressed', String(frozen));
+  write($('pause'), paused ? 'Run' : 'Pause');
   write($('freeze'), frozen ? 'Follow' : 'Freeze');
+  $('freeze').ariaPressed = frozen;
   document.body.classList.toggle('frozen', frozen);
 }
 
-function setPaused(yes) {
-  paused = yes;
-  write($('pause'), yes ? 'Run' : 'Pause');
-  if (!yes) framesAt = performance.now();
-  textAt = 0;
+async function pace(speed) {
+  await send({ type: 'pace', speed });
+  [paused, frames_ms, text_ms] = [speed === 0, performance.now(), 0];
   draw();
-  return send({ type: 'pace', speed: yes ? 0 : speed });
 }
 
 async function oneSlot() {
   follow();
-  if (!paused) await setPaused(true);
+  if (!paused) await pace(0);
   await send({ type: 'step', slots: 1 });
   await send({ type: 'slot' });
 }
 
-async function toggleRecord() {
-  await send({ type: 'record', to: recording ? 'scene' : 'start' });
-  recording = !recording && link.connected;
-  write($('record'), recording ? 'Stop and save' : 'Record');
-  $('record').classList.toggle('on', recording);
+function showRecording(on) {
+  recording = on;
+  write($('record'), on ? 'Stop and save' : 'Record');
+  $('record').classList.toggle('on', on);
 }
 
-function download({ name, text }) {
+async function toggleRecord() {
+  try {
+    await link.send({ type: 'record', to: recording ? 'scene' : 'start' });
+    showRecording(!recording);
+  } catch (error) {
+    notice(error.message);
+  }
+}
+
+function download({ name, text, note }) {
   const anchor = element('a');
   anchor.href = URL.createObjectURL(new Blob([text], { type: 'text/plain' }));
   anchor.download = name;
   anchor.click();
   setTimeout(() => URL.revokeObjectURL(anchor.href), 1000);
-  notice(`Saved ${name}. Run it with: hapticore simulate ${name}`);
+  notice(`Saved ${name}; hapticore simulate ${name} runs it. ${note}`);
 }
 
-async function copy(text) {
-  try {
-    await navigator.clipboard.writeText(text);
-    notice(`Copied: ${text}`);
-  } catch {
-    notice(`Copy this: ${text}`);
-  }
+function copy(text) {
+  const done = () => notice(`Copied: ${text}`);
+  if (navigator.clipboard) navigator.clipboard.writeText(text).then(done, () => notice(`Copy this: ${text}`));
+  else notice(`Copy this: ${text}`);
 }
 
-leadByPointer($('sheet'), leader, {
-  take: (event) => sheet.hit(event), toMm: (event) => sheet.toMm(event),
-  onTake(pad) {
-    if (model.frozen) follow();
-    choose(pad);
-  },
-});
-leadByPointer($('loupe'), leader, {
-  take: () => model.pad,
-  toMm: (event) => [event.clientX / loupe.scale, -event.clientY / loupe.scale],
-  onTake() {
-    if (model.frozen) follow();
-  },
-});
-listenToKeys({
-  model, leader, choose, freeze: toggleFreeze, slot: oneSlot,
-  onLead() {
-    if (model.frozen) follow();
-  },
-});
-
-$('scene').onchange = (event) => open({ preset: null, scene: event.target.value, set: {} });
-$('speed').onchange = (event) => {
-  speed = Number(event.target.value);
-  setPaused(false);
+for (const [word, words] of Object.entries(STATES)) $('states').append(element('dt', '', word), element('dd', '', words));
+fill($('span'), SPANS, strips.span_s);
+leadByPointer(sheet, leader, (pad) => (follow(), choose(pad)));
+leadByPointer(loupe, leader, follow);
+listenToKeys({ model, choose, freeze: toggleFreeze, slot: oneSlot, step: (by) => (follow(), leader.step(model.pad, by)) });
+const clicks = {
+  pause: () => pace(paused ? Number($('speed').value) : 0), 'one-slot': oneSlot, 'take-slot': () => send({ type: 'slot' }),
+  freeze: toggleFreeze, record: toggleRecord, 'copy-command': () => copy(model.hello?.command ?? ''),
+  'copy-link': () => copy(location.origin + location.pathname + writeLink('', opened)),
 };
-$('span').onchange = (event) => {
-  strips.span_s = Number(event.target.value);
-  draw();
+for (const [id, run] of Object.entries(clicks)) $(id).onclick = run;
+const changes = {
+  scene: (scene) => open({ scene, set: {} }), case: (of) => open({ ...opened, preset: null, case: of }), speed: (speed) => pace(Number(speed)),
+  span: (span) => (Object.assign(strips, { span_s: Number(span) }), draw()),
 };
-$('pause').onclick = () => setPaused(!paused);
-$('one-slot').onclick = oneSlot;
-$('take-slot').onclick = () => send({ type: 'slot' });
-$('freeze').onclick = toggleFreeze;
-$('record').onclick = toggleRecord;
-$('copy-command').onclick = () => copy(model.hello?.command ?? '');
-$('copy-link').onclick = () => copy(location.origin + location.pathname + writeLink('', chosen));
+for (const [id, run] of Object.entries(changes)) $(id).onchange = (event) => run(event.target.value);
 addEventListener('resize', draw);
 window.matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => {
   readColours();
-  if (!model.hello) return;
-  strips.build();
+  if (model.hello) strips.build();
   slotPlot.build();
   draw();
 });

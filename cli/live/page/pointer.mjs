@@ -1,25 +1,27 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // Fingers: pointers and arrow keys lead pads. A pointer leads the finger, which pulls the pad as a hand would.
 
-const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
-/** Key presses that follow within this time continue from the place wanted, not from the finger's measured one. */
-const CONTINUES_MS = 400;
+import { finger } from './model.mjs';
 
-/** Sends where fingers should be, once per picture and pad at most: the source draws a line between them. */
+const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+/** Steps of the keyboard that follow within this time go on from the place wanted, not from the finger's present one. */
+const GOES_ON_MS = 400;
+
+/** Sends where fingers should be, once per picture and pad at most; the source draws a line between two such places. */
 export class Leader {
   constructor(model, send) {
-    Object.assign(this, { model, send, wanted: new Map(), last: new Map() });
+    Object.assign(this, { model, send, wanted: new Map(), last: {} });
   }
 
   lead(pad, mm) {
     const { sheet_mm, pad_diameter_mm } = this.model.hello;
     const inside = mm.map((value, axis) => {
       const reach = (sheet_mm[axis] - pad_diameter_mm) / 2;
-      return Math.round(1e3 * Math.min(reach, Math.max(-reach, value))) / 1e3;
+      return Number(Math.min(reach, Math.max(-reach, value)).toFixed(3));
     });
     if (!this.wanted.size) requestAnimationFrame(() => this.flush());
     this.wanted.set(pad, inside);
-    this.last.set(pad, { mm: inside, at_ms: performance.now() });
+    this.last = { pad, mm: inside, at_ms: performance.now() };
   }
 
   flush() {
@@ -27,65 +29,55 @@ export class Leader {
     this.wanted.clear();
   }
 
-  /** Moves a finger by a step of the keyboard. */
+  /** Where the finger of a pad is now; null where the pad has had no frame yet. */
+  finger(number) {
+    const pad = this.model.latest?.pads[number];
+    const mm = pad ? finger(pad) : [null];
+    return mm.every(Number.isFinite) ? mm : null;
+  }
+
   step(pad, by) {
-    const last = this.last.get(pad);
-    const from = last && performance.now() - last.at_ms < CONTINUES_MS ? last.mm : this.model.finger(pad);
-    if (from) this.lead(pad, [from[0] + by[0], from[1] + by[1]]);
+    const goesOn = this.last.pad === pad && performance.now() - this.last.at_ms < GOES_ON_MS;
+    const from = goesOn ? this.last.mm : this.finger(pad);
+    if (from) this.lead(pad, from.map((mm, axis) => mm + by[axis]));
   }
 }
 
-/**
- * Lets pointers on a canvas lead pads, each pointer its own.
- *
- * `take(event)` is the pad's number or null; `toMm(event)` a place whose differences are millimetres; `onTake(pad)`
- * runs when a drag begins.
- */
-export function leadByPointer(canvas, leader, { take, toMm, onTake }) {
+/** Lets pointers on a view lead pads, each pointer its own. `onTake(pad)` runs as a drag begins. */
+export function leadByPointer(view, leader, onTake) {
+  const { canvas } = view;
   const drags = new Map();
   canvas.addEventListener('pointerdown', (event) => {
-    const pad = event.button ? null : take(event);
-    const finger = pad == null ? null : leader.model.finger(pad);
-    if (!finger || [...drags.values()].some((drag) => drag.pad === pad)) return;
-    const at = toMm(event);
-    drags.set(event.pointerId, { pad, off: [finger[0] - at[0], finger[1] - at[1]] });
+    const pad = event.button ? null : view.hit(event);
+    const from = pad == null ? null : leader.finger(pad);
+    if (!from || [...drags.values()].some((drag) => drag.pad === pad)) return;
+    drags.set(event.pointerId, { pad, off: view.toMm(event).map((mm, axis) => from[axis] - mm) });
     canvas.setPointerCapture(event.pointerId);
     onTake(pad);
   });
   canvas.addEventListener('pointermove', (event) => {
     const drag = drags.get(event.pointerId);
-    if (!drag) {
-      if (event.pointerType === 'mouse') canvas.style.cursor = take(event) == null ? 'default' : 'grab';
-      return;
-    }
-    canvas.style.cursor = 'grabbing';
-    const at = toMm(event);
-    leader.lead(drag.pad, [at[0] + drag.off[0], at[1] + drag.off[1]]);
+    canvas.style.cursor = drag ? 'grabbing' : view.hit(event) == null ? 'default' : 'grab';
+    if (drag) leader.lead(drag.pad, view.toMm(event).map((mm, axis) => mm + drag.off[axis]));
   });
-  for (const end of ['pointerup', 'pointercancel', 'lostpointercapture']) {
-    canvas.addEventListener(end, (event) => drags.delete(event.pointerId));
-  }
-  // A finger that takes a pad must not scroll the page; one beside a pad may.
+  for (const end of ['pointerup', 'pointercancel']) canvas.addEventListener(end, (event) => drags.delete(event.pointerId));
+  // A touch that takes a pad must not scroll the page; one beside all pads may.
   canvas.addEventListener('touchstart', (event) => {
-    if ([...event.changedTouches].some((touch) => take(touch) != null)) event.preventDefault();
+    if ([...event.changedTouches].some((touch) => view.hit(touch) != null)) event.preventDefault();
   }, { passive: false });
 }
 
-/** Keys of the page: `actions` has `choose(pad)`, `freeze()`, `slot()` and the `leader` with the chosen pad. */
-export function listenToKeys({ model, leader, choose, freeze, slot, onLead }) {
+/** Keys: numbers choose, arrows step, space freezes, a full stop runs one slot. */
+export function listenToKeys({ model, choose, step, freeze, slot }) {
   addEventListener('keydown', (event) => {
-    if (!model.hello || event.ctrlKey || event.metaKey || event.altKey) return;
-    const control = event.target.closest?.('input, select, textarea');
-    if (control) return;
-    const pressed = event.target.closest?.('button, summary');
-    const number = '1234'.indexOf(event.key);
-    if (ARROWS[event.key] && !event.target.closest?.('ol')) {
-      const size = event.shiftKey ? 0.1 : 1;
-      onLead();
-      leader.step(model.pad, ARROWS[event.key].map((step) => step * size));
-    } else if (number >= 0 && number < model.hello.pads.length) choose(number);
-    else if (event.key === ' ' && !pressed) freeze();
+    const control = event.target.closest?.('input, select, button, summary');
+    const typing = control && !control.matches('button');
+    if (!model.hello || typing || event.ctrlKey || event.metaKey || event.altKey) return;
+    const number = Number(event.key) - 1;
+    if (ARROWS[event.key]) step(ARROWS[event.key].map((mm) => mm * (event.shiftKey ? 0.1 : 1)));
+    else if (event.key === ' ' && !control) freeze();
     else if (event.key === '.') slot();
+    else if (event.key.trim() && number >= 0 && number < model.hello.pads.length) choose(number);
     else return;
     event.preventDefault();
   });

@@ -1,30 +1,24 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // Client of protocol 1: JSON text over one WebSocket. It connects again by itself and matches answers to commands.
 
-/** Words of a pad's state, with what each means. The order is that of growing concern. */
+/** Words of a pad's state, and what each means. */
 export const STATES = {
-  free: 'No wall and no target: the pad moves freely, the drive is at 0 V.',
-  'in wall': 'The pad is inside a wall and is braked by its depth.',
-  sticking: 'The pad is held at rest by its friction; the finger pulls on it.',
-  limited: 'The drive is at its highest voltage: the wanted force is not reached.',
-  noisy: 'The measurement scatters more than it should.',
+  free: 'Nothing brakes the pad but its weight.',
+  'in wall': 'The pad is inside a wall, which brakes it by its depth.',
+  sticking: 'The hand pulls the pad out of the wall, and the wall still holds it.',
+  limited: 'The drive is at its limit: the force is below its target.',
+  noisy: 'The force swings about its target.',
   lifted: 'The pad does not touch the sheet.',
-  invalid: 'The core cannot measure this pad; its drive is at 0 V.',
-  fault: 'The core has found a fault and holds the drive at 0 V.',
-  late: 'No new measurement in time; the value shown is old.',
-  lost: 'No connection to the source; the value shown is old.',
+  invalid: 'The core cannot measure this pad.',
+  fault: 'A fault of the controller keeps the drive at 0 V.',
+  late: 'No new measurement in time: the values shown are old.',
+  lost: 'A terminal’s current, or the connection, is missing.',
 };
 
-/** Seconds between attempts to connect. */
-const RETRY_S = 1;
-/** Seconds after which a command counts as unanswered. */
-const ANSWER_S = 10;
+/** Seconds between attempts to connect, and until a command counts as unanswered. */
+const [RETRY_S, ANSWER_S] = [1, 10];
 
-/**
- * A connection to the source.
- *
- * `onMessage(message)` receives every message; `onState(connected)` each change of the connection.
- */
+/** A connection. `onMessage(message)` receives every message, `onState(connected)` each change of the connection. */
 export class Link {
   constructor(url, onMessage, onState) {
     Object.assign(this, { url, onMessage, onState, waiting: new Map(), next: 1, answer_ms: null });
@@ -40,7 +34,7 @@ export class Link {
     this.socket.onopen = () => this.onState(true);
     this.socket.onmessage = (event) => this.accept(JSON.parse(event.data));
     this.socket.onclose = () => {
-      for (const [id] of this.waiting) this.settle(id, new Error('connection lost'));
+      for (const id of this.waiting.keys()) this.settle(id, new Error('connection lost'));
       this.onState(false);
       setTimeout(() => this.connect(), 1e3 * RETRY_S);
     };
@@ -48,8 +42,7 @@ export class Link {
 
   accept(message) {
     if (message.type === 'done') this.settle(message.id, null);
-    if (message.type === 'error' && this.settle(message.id, new Error(message.message))) return;
-    this.onMessage(message);
+    else if (message.type !== 'error' || !this.settle(message.id, new Error(message.message))) this.onMessage(message);
   }
 
   /** Ends the command `id`; true where it was waited for. */
@@ -58,19 +51,22 @@ export class Link {
     if (!command) return false;
     this.waiting.delete(id);
     clearTimeout(command.timer);
-    if (!error) this.answer_ms = performance.now() - command.sent;
     if (error) command.reject(error);
-    else command.resolve();
+    else {
+      this.answer_ms = performance.now() - command.sent_ms;
+      command.resolve();
+    }
     return true;
   }
 
-  /** Sends a command. The promise ends with its answer; it fails with the source's message. */
+  /** Sends a command. The promise ends with its answer, or fails with the source's message. */
   send(command) {
-    if (!this.connected) return Promise.reject(new Error('not connected'));
+    if (!this.connected) return Promise.reject(new Error('Not connected: the command was not sent'));
     const id = this.next++;
     return new Promise((resolve, reject) => {
-      const late = () => this.settle(id, new Error(`${command.type}: no answer within ${ANSWER_S} s`));
-      this.waiting.set(id, { resolve, reject, sent: performance.now(), timer: setTimeout(late, 1e3 * ANSWER_S) });
+      const unanswered = () => this.settle(id, new Error(`${command.type}: no answer within ${ANSWER_S} s`));
+      const timer = setTimeout(unanswered, 1e3 * ANSWER_S);
+      this.waiting.set(id, { resolve, reject, timer, sent_ms: performance.now() });
       this.socket.send(JSON.stringify({ ...command, id }));
     });
   }

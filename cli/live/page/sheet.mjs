@@ -1,46 +1,24 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // The whole sheet to scale: terminals, walls, pads with their fingers, errors and forces.
 
-import { arrow, begin, colours, disc, fixed, hatch, label, line, ring } from './draw.mjs';
-import { place } from './model.mjs';
+import { arrow, colours, disc, fixed, forceVector, label, line, ring, View } from './draw.mjs';
+import { finger, place } from './model.mjs';
 
 const PIXELS_PER_N = 70;
 const TRAIL_S = 1;
-/** A pointer takes the nearest pad within this distance, in millimetres and at least in pixels. */
-const REACH_MM = 45;
-const REACH_PIXELS = 26;
+/** A pointer takes the nearest pad within this distance: in millimetres, and in pixels. */
+const [REACH_MM, REACH_PIXELS] = [45, 26];
+/** Narrower sheets have shorter labels, in pixels. */
+const NARROW = 500;
+const still = window.matchMedia('(prefers-reduced-motion: reduce)');
 
-export const still = window.matchMedia('(prefers-reduced-motion: reduce)');
-
-export class Sheet {
-  constructor(canvas, model) {
-    Object.assign(this, { canvas, model, scale: 1, middle: [0, 0] });
-  }
-
-  x(mm) {
-    return this.middle[0] + mm * this.scale;
-  }
-
-  y(mm) {
-    return this.middle[1] - mm * this.scale;
-  }
-
-  /** Place of a pointer on the sheet, in millimetres. */
-  toMm(event) {
-    const box = this.canvas.getBoundingClientRect();
-    return [
-      (event.clientX - box.left - this.middle[0]) / this.scale,
-      (this.middle[1] - (event.clientY - box.top)) / this.scale,
-    ];
-  }
-
+export class Sheet extends View {
   /** Number of the pad that a pointer takes; null where none is near. */
   hit(event) {
     const [x, y] = this.toMm(event);
     let [best, least] = [null, Math.max(REACH_MM, REACH_PIXELS / this.scale)];
-    for (const pad of this.model.latest?.pads ?? []) {
-      if (!pad) continue;
-      for (const [px, py] of [place(pad), this.model.finger(pad.pad)]) {
+    for (const pad of this.model.latest?.pads.filter(Boolean) ?? []) {
+      for (const [px, py] of [place(pad), finger(pad)]) {
         const away = Math.hypot(px - x, py - y);
         if (away < least) [best, least] = [pad.pad, away];
       }
@@ -50,119 +28,81 @@ export class Sheet {
 
   draw() {
     const { hello, shown } = this.model;
-    const [width_mm, height_mm] = hello.sheet_mm;
-    const wide = this.canvas.clientWidth;
-    const margin = wide < 500 ? 20 : 30;
-    this.scale = (wide - 2 * margin) / width_mm;
-    const [g, width, height] = begin(this.canvas, Math.round(height_mm * this.scale + 2 * margin));
-    this.middle = [width / 2, height / 2];
-    this.drawSheet(g, width_mm, height_mm);
+    const reach = hello.sheet_mm.map((mm) => mm / 2);
+    this.margin = this.canvas.clientWidth < NARROW ? 18 : 28;
+    this.scale = (this.canvas.clientWidth - 2 * this.margin) / hello.sheet_mm[0];
+    this.radius = Math.max(5, (hello.pad_diameter_mm / 2) * this.scale);
+    const g = this.begin(Math.round(hello.sheet_mm[1] * this.scale + 2 * this.margin));
+    this.drawSheet(g, reach);
     if (!shown) return;
-    this.drawWalls(g, shown, width_mm, height_mm);
-    this.drawTerminals(g, shown, margin);
-    if (!still.matches) this.drawTrails(g, shown);
-    for (const pad of shown.pads) if (pad) this.drawPad(g, pad);
-    for (const pad of shown.pads) if (pad) this.drawLabel(g, pad, width);
+    const pads = shown.pads.filter(Boolean);
+    this.walls(g, [0, 0], reach, 8);
+    this.drawTerminals(g, shown);
+    if (!still.matches) this.drawTrails(g, pads);
+    for (const pad of pads) this.drawPad(g, pad);
+    for (const pad of pads) this.drawLabel(g, pad);
   }
 
-  drawSheet(g, width_mm, height_mm) {
-    const [left, top] = [this.x(-width_mm / 2), this.y(height_mm / 2)];
+  drawSheet(g, [w, h]) {
+    const [[left, top], [right, bottom]] = [this.at([-w, h]), this.at([w, -h])];
     g.fillStyle = colours.raised;
-    g.fillRect(left, top, width_mm * this.scale, height_mm * this.scale);
-    for (let x = -100 * Math.floor(width_mm / 200); x <= width_mm / 2; x += 100) {
-      line(g, [[this.x(x), top], [this.x(x), this.y(-height_mm / 2)]], colours.grid);
+    g.fillRect(left, top, right - left, bottom - top);
+    for (let mm = -100 * Math.floor(w / 100); mm <= w; mm += 100) {
+      line(g, [this.at([mm, -h]), this.at([mm, h])], colours.grid);
+      if (Math.abs(mm) <= h) line(g, [this.at([-w, mm]), this.at([w, mm])], colours.grid);
     }
-    for (let y = -100 * Math.floor(height_mm / 200); y <= height_mm / 2; y += 100) {
-      line(g, [[left, this.y(y)], [this.x(width_mm / 2), this.y(y)]], colours.grid);
-    }
-    g.strokeStyle = colours.muted;
-    g.lineWidth = 1;
-    g.strokeRect(left, top, width_mm * this.scale, height_mm * this.scale);
+    line(g, [[left, top], [right, top], [right, bottom], [left, bottom], [left, top]], colours.muted);
   }
 
-  drawWalls(g, shown, width_mm, height_mm) {
-    const [w, h] = [width_mm / 2, height_mm / 2];
-    this.model.hello.walls.forEach((wall, k) => {
-      const mm = shown.walls[k];
-      if (mm == null) return;
-      const limit = wall.axis === 'x' ? w : h;
-      if (Math.abs(mm) > limit) return;
-      const [from, to] = wall.inside === 'below' ? [-limit, mm] : [mm, limit];
-      const [x0, x1, y0, y1] = wall.axis === 'x' ? [from, to, -h, h] : [-w, w, from, to];
-      hatch(g, this.x(x0), this.y(y1), (x1 - x0) * this.scale, (y1 - y0) * this.scale);
-      const edge = wall.axis === 'x' ? [[mm, -h], [mm, h]] : [[-w, mm], [w, mm]];
-      line(g, edge.map(([x, y]) => [this.x(x), this.y(y)]), colours.ink, 2);
+  /** Discs whose area is the current. */
+  drawTerminals(g, shown) {
+    this.model.hello.terminals_mm.forEach((mm, k) => {
+      const [x, y] = this.at(mm);
+      disc(g, [x, y], 3 + (this.margin - 5) * Math.sqrt(Math.min(1, shown.terminals[k] ?? 0)), colours.measured, 0.4);
+      disc(g, [x, y], 2.5, colours.ink);
+      const away = this.margin + 4;
+      const side = x < away ? 1 : x > this.width - away ? -1 : 0;
+      const lower = side ? 4 : mm[1] > 0 ? away + 2 : 4 - away;
+      label(g, `I${k + 1}`, x + side * away, y + lower, colours.muted, ['right', 'center', 'left'][side + 1]);
     });
   }
 
-  drawTerminals(g, shown, margin) {
-    const most = margin - 4;
-    this.model.hello.terminals_mm.forEach(([x, y], k) => {
-      const share = Math.max(0, shown.terminals[k] ?? 0);
-      const at = [this.x(x), this.y(y)];
-      disc(g, at, 3 + (most - 3) * Math.sqrt(Math.min(1, share)), colours.measured, 0.35);
-      disc(g, at, 2.5, colours.ink);
-      const inward = margin + 2;
-      const [left, right] = [at[0] < margin + 4, at[0] > 2 * this.middle[0] - margin - 4];
-      const [tx, align] = left ? [at[0] + inward, 'left'] : right ? [at[0] - inward, 'right'] : [at[0], 'center'];
-      const ty = left || right ? at[1] + 4 : at[1] + (y > 0 ? inward : 8 - inward);
-      label(g, `I${k + 1}`, tx, ty, colours.muted, align);
-    });
-  }
-
-  drawTrails(g, shown) {
-    const frames = this.model.within([shown.time_s - TRAIL_S, shown.time_s]);
+  drawTrails(g, pads) {
+    const frames = this.model.within([this.model.shown.time_s - TRAIL_S, this.model.shown.time_s]);
     g.globalAlpha = 0.4;
-    for (const { pad } of shown.pads.filter(Boolean)) {
-      const points = frames.filter((frame) => frame.pads[pad]).map((frame) => place(frame.pads[pad]));
-      line(g, points.map(([x, y]) => [this.x(x), this.y(y)]), colours.true, 2);
+    for (const { pad } of pads) {
+      const known = frames.map((frame) => frame.pads[pad]).filter(Boolean);
+      line(g, known.map((of) => this.at(place(of))), colours.true, 2);
     }
     g.globalAlpha = 1;
   }
 
   drawPad(g, pad) {
-    const { hello } = this.model;
-    const chosen = pad.pad === this.model.pad;
-    const radius = Math.max(5, (hello.pad_diameter_mm / 2) * this.scale);
-    const [px, py] = place(pad);
-    const centre = [this.x(px), this.y(py)];
-    disc(g, centre, radius, colours.page, 0.85);
-    ring(g, centre, radius, hello.truth ? colours.true : colours.measured, chosen ? 3 : 1.5);
+    const centre = this.at(place(pad));
+    disc(g, centre, this.radius, colours.page, 0.85);
+    const colour = this.model.hello.truth ? colours.true : colours.measured;
+    ring(g, centre, this.radius, colour, pad.pad === this.model.pad ? 3 : 1.5);
     if (pad.finger_x_mm != null) {
-      const finger = [this.x(pad.finger_x_mm), this.y(pad.finger_y_mm)];
-      line(g, [centre, finger], colours.finger, 1, [3, 3]);
-      ring(g, finger, Math.max(3.5, radius * 0.45), colours.finger, 2);
+      line(g, [centre, this.at(finger(pad))], colours.finger, 1, [3, 3]);
+      ring(g, this.at(finger(pad)), Math.max(3.5, this.radius * 0.45), colours.finger, 2);
     }
-    if (pad.x_mm != null && pad.true_x_mm != null) {
-      const [ex, ey] = [10 * (pad.x_mm - pad.true_x_mm), 10 * (pad.y_mm - pad.true_y_mm)];
-      line(g, [centre, [this.x(px + ex), this.y(py + ey)]], colours.measured, 2);
+    if (pad.error_mm != null) {
+      const tenfold = place(pad).map((mm, axis) => mm + 10 * ([pad.x_mm, pad.y_mm][axis] - mm));
+      line(g, [centre, this.at(tenfold)], colours.measured, 2);
     }
-    if (pad.x_mm != null) disc(g, [this.x(pad.x_mm), this.y(pad.y_mm)], 3, colours.measured);
+    if (pad.x_mm != null) disc(g, this.at([pad.x_mm, pad.y_mm]), 3, colours.measured);
     const force = forceVector(pad);
-    if (force) arrow(g, centre, force.map((n) => n * PIXELS_PER_N), colours.force);
+    if (force) arrow(g, centre, force.map((n) => n * PIXELS_PER_N), colours.force, 3);
   }
 
-  drawLabel(g, pad, width) {
-    const chosen = pad.pad === this.model.pad;
-    const radius = Math.max(5, (this.model.hello.pad_diameter_mm / 2) * this.scale);
-    const [x, y] = place(pad);
-    const toLeft = this.x(x) > width - 170;
-    const side = toLeft ? this.x(x) - radius - 10 : this.x(x) + radius + 10;
-    const align = toLeft ? 'right' : 'left';
-    const name = `${pad.pad + 1} ${this.model.hello.pads[pad.pad].name}`;
-    const weight = chosen ? '600 ' : '';
-    const font = `${weight}12px system-ui, sans-serif`;
-    const compact = width < 500;
-    if (!compact) label(g, name, side, this.y(y) - 4, colours.ink, align, font);
+  drawLabel(g, pad) {
+    const [x, y] = this.at(place(pad));
+    const side = x > this.width - 170 ? -1 : 1;
+    const [at, align] = [x + side * (this.radius + 9), side < 0 ? 'right' : 'left'];
+    const style = pad.pad === this.model.pad ? '600 ' : '';
     const text = `${fixed(pad.force_n, 2)} N · ${this.model.state(pad)}`;
-    label(g, compact ? `${pad.pad + 1}  ${text}` : text, side, this.y(y) + (compact ? 4 : 11),
-      compact ? colours.ink : colours.muted, align, compact ? font : undefined);
+    if (this.width < NARROW) return label(g, `${pad.pad + 1}  ${text}`, at, y - 4, colours.ink, align, style);
+    label(g, `${pad.pad + 1} ${this.model.hello.pads[pad.pad].name}`, at, y - 20, colours.ink, align, style);
+    return label(g, text, at, y - 6, colours.muted, align);
   }
-}
-
-/** Haptic force on a pad as a vector on the screen (y down), in newtons: against the hand. Null without a direction. */
-export function forceVector(pad) {
-  const newtons = pad.true_force_n ?? pad.force_n;
-  if (newtons == null || !(pad.hand_n > 0.005)) return null;
-  return [(-pad.hand_x_n / pad.hand_n) * newtons, (pad.hand_y_n / pad.hand_n) * newtons];
 }

@@ -2,67 +2,61 @@
 // One slot: the ADC's codes of every channel, from which the core makes one measurement.
 
 import { colours } from './draw.mjs';
+import { element } from './panels.mjs';
+import { axis } from './strips.mjs';
 
-const PALETTE = [10, 11, 12, 13, 14, 15];
-const DASHED = [6, 3];
+const HEIGHT = 170;
 
 export class SlotPlot {
-  constructor(box, channels, facts) {
-    Object.assign(this, { box, channels, facts, message: null, plot: null, hidden: new Set() });
-    new ResizeObserver(() => this.plot?.setSize({ width: box.clientWidth, height: 170 })).observe(box);
+  constructor(box, buttons, facts, model) {
+    Object.assign(this, { box, buttons, facts, model, message: null, plot: null, hidden: new Set() });
+    new ResizeObserver(() => this.plot?.setSize({ width: box.clientWidth, height: HEIGHT })).observe(box);
   }
 
-  clear() {
-    this.plot?.destroy();
-    this.plot = this.message = null;
-    this.channels.replaceChildren();
+  show(message) {
+    const { pads, parts } = this.model.hello;
+    const part = parts > 1 ? `, part ${(message.pad % parts) + 1} of ${parts}` : '';
+    const codes = message.codes.length ? `full scale ±${message.full_scale}` : 'no codes: this scene computes phasors';
+    this.facts.textContent = `number ${message.slot}, pad ${pads[Math.floor(message.pad / parts)].name}${part}, ${codes}`;
+    this.message = message.codes.length ? message : null;
+    this.build();
   }
 
-  show(message, pads) {
-    const first = !this.message;
-    this.message = message;
-    const name = pads[message.pad]?.name ?? `pad ${message.pad}`;
-    this.facts.textContent = `slot ${message.slot}, ${name}, full scale ±${message.full_scale}`;
-    if (first || this.channels.childElementCount !== message.channels.length) this.build();
-    this.plot.setData([message.codes[0].map((_, k) => k), ...message.codes]);
-  }
-
-  /** Makes the plot and its buttons anew: for other channels and after a change of theme. */
+  /** Makes plot and buttons anew: for other codes and after a change of theme. */
   build() {
-    const { message } = this;
-    if (!message) return;
     this.plot?.destroy();
-    const axis = { stroke: colours.muted, grid: { stroke: colours.grid, width: 1 }, ticks: { show: false }, font: '11px system-ui, sans-serif' };
+    this.plot = null;
+    this.buttons.replaceChildren();
+    if (!this.message) return;
+    const { channels, codes, sample_rate_hz } = this.message;
+    const series = channels.map((name, k) => ({ width: 1.25, points: { show: false }, show: !this.hidden.has(name), ...style(k) }));
+    const times = codes[0].map((_, k) => (1e6 * k) / sample_rate_hz);
     this.plot = new window.uPlot({
-      width: this.box.clientWidth || 400, height: 170, padding: [8, 8, 0, 0], legend: { show: false }, cursor: { y: false },
-      scales: { x: { time: false } },
-      axes: [{ ...axis, size: 22, gap: 2, values: (u, ticks) => ticks.map((tick) => (tick % 1 ? '' : tick)) },
-        { ...axis, size: 64, space: 30, gap: 4, values: (u, ticks) => ticks.map((tick) => String(tick).replace('-', '−')) }],
-      series: [{}, ...message.channels.map((name, k) => ({ label: name, width: 1.25, points: { show: false },
-        show: !this.hidden.has(name), ...this.style(k) }))],
-    }, [[], ...message.channels.map(() => [])], this.box);
-    this.plot.setData([message.codes[0].map((_, k) => k), ...message.codes]);
-    this.channels.replaceChildren(...message.channels.map((name, k) => this.button(name, k)));
-  }
-
-  style(k) {
-    return { stroke: colours[PALETTE[k % PALETTE.length]], dash: k < PALETTE.length ? undefined : DASHED };
+      width: this.box.clientWidth, height: HEIGHT, padding: [8, 8, 0, 0], legend: { show: false }, cursor: { y: false },
+      scales: { x: { time: false } }, series: [{}, ...series],
+      axes: [{ ...axis(), size: 22, gap: 2, values: (plot, ticks) => ticks.map((tick) => `${tick} µs`) }, { ...axis(), size: 64, gap: 4 }],
+    }, [times, ...codes], this.box);
+    this.buttons.replaceChildren(...channels.map((name, k) => this.button(name, k)));
   }
 
   button(name, k) {
-    const button = document.createElement('button');
-    const key = document.createElement('i');
-    key.className = `key line${k < PALETTE.length ? '' : ' dashed'}`;
-    key.style.borderColor = this.style(k).stroke;
-    button.type = 'button';
-    button.append(key, name);
-    button.setAttribute('aria-pressed', String(!this.hidden.has(name)));
+    const key = element('i', `key line${style(k).dash ? ' dashed' : ''}`);
+    key.style.borderColor = style(k).stroke;
+    const button = element('button', '', name);
+    button.prepend(key);
+    button.ariaPressed = !this.hidden.has(name);
     button.onclick = () => {
-      if (!this.hidden.delete(name)) this.hidden.add(name);
-      const shown = !this.hidden.has(name);
-      button.setAttribute('aria-pressed', String(shown));
-      this.plot.setSeries(k + 1, { show: shown });
+      const show = this.hidden.delete(name);
+      if (!show) this.hidden.add(name);
+      button.ariaPressed = show;
+      this.plot.setSeries(k + 1, { show });
     };
     return button;
   }
+}
+
+/** Colour and dash of a channel: as many colours as there are, then again dashed. */
+function style(k) {
+  const { series } = colours;
+  return { stroke: series[k % series.length], dash: k < series.length ? undefined : [6, 3] };
 }

@@ -2,67 +2,56 @@
 // Strips: the chosen pad's quantities over the last seconds, one below the other on one time axis.
 
 import { colours, fixed } from './draw.mjs';
-import { length } from './model.mjs';
 
-const MEASURED = ['measured', 'measured'];
-const TRUE = ['true', 'true'];
+const AXIS_PIXELS = 22;
+/** Height of a plot where the layout does not decide it. */
+const PLOT_PIXELS = 92;
+const wide = window.matchMedia('(min-width: 65rem)');
 
-/** The strips of a source: title, unit, decimals, lines `[name, colour, value of a pad, dash]`, limit, least range. */
-function strips(hello) {
-  const limits = hello.limits ?? {};
-  const truth = hello.truth;
-  const line = ([name, colour], get, dash) => ({ name, colour, get, dash });
+/** The strips of a source. A line: name, colour, column, dash. A limit: value and name. `least`: the smallest range. */
+function strips({ limits, truth, walls, controller }) {
+  const measured = (column) => ['measured', 'measured', column];
+  const known = (column) => (truth ? [['true', 'true', column]] : []);
+  const rail = limits.rail_v == null ? null : [limits.rail_v, 'rail'];
   const list = [
-    {
-      title: 'Haptic force', unit: 'N', decimals: 3, least: 0.2, limit: limits.force_n, limitName: 'rail',
-      words: 'Friction that the voltage adds. Target: what the controller or the wall asks for.',
-      lines: [line(MEASURED, (pad) => pad.force_n), truth && line(TRUE, (pad) => pad.true_force_n),
-        line(['target', 'target'], (pad) => pad.target_n, [6, 4])],
-    },
-    hello.walls.length
-      ? { title: 'Depth in the wall', unit: 'mm', decimals: 2, least: 2,
-        words: 'Measured distance of the pad behind the wall’s surface; negative outside.',
-        lines: [line(['depth', 'measured'], (pad) => pad.depth_mm)] }
-      : { title: 'Finger ahead of the pad', unit: 'mm', decimals: 2, least: 1,
-        words: 'Distance from the pad to the finger that leads it.',
-        lines: [line(['distance', 'finger'], (pad) => lag(pad))] },
-    {
-      title: 'Voltage', unit: 'V rms', decimals: 0, least: 50, limit: limits.rail_v, limitName: 'rail',
-      words: 'Haptic voltage across the pad. Drive: what the source puts out. Rail: the highest drive.',
-      lines: [line(MEASURED, (pad) => pad.voltage_v_rms), truth && line(TRUE, (pad) => pad.true_voltage_v_rms),
-        line(['drive', 'target'], (pad) => pad.drive_v, [6, 4])],
-    },
-    {
-      title: 'Capacitance', unit: 'pF', decimals: 1, least: 2, free: true,
-      words: 'Between pad and sheet. It rises when the gap closes.',
-      lines: [line(MEASURED, (pad) => pad.capacitance_pf), truth && line(TRUE, (pad) => pad.true_capacitance_pf)],
-    },
-    truth && {
-      title: 'Position error', unit: 'mm', decimals: 2, least: 0.5, limit: limits.position_mm, limitName: 'limit',
-      words: 'Distance between the measured and the true position.', lines: [line(['error', 'measured'], (pad) => pad.error_mm)],
-    },
+    { title: 'Haptic force', unit: 'N', decimals: 3, least: 0.2, words: 'Friction that the voltage adds. Target: what wall or controller ask for.',
+      lines: [measured('force_n'), ...known('true_force_n'), ...(controller ? [['target', 'target', 'target_n', [6, 4]]] : [])] },
+    walls.length
+      ? { title: 'Depth in the wall', unit: 'mm', decimals: 2, least: 2, words: 'Measured, behind the wall’s surface; negative outside.',
+        lines: [['', 'measured', 'depth_mm']] }
+      : { title: 'Finger ahead of the pad', unit: 'mm', decimals: 2, least: 1, words: 'The hand is a spring between the two.',
+        lines: [['', 'finger', 'ahead_mm']] },
+    { title: 'Haptic voltage', unit: 'V rms', decimals: 0, least: 50, limit: rail, words: 'Across the pad. Drive: what the source puts out; rail: its limit.',
+      lines: [measured('haptic_v_rms'), ...known('true_haptic_v_rms'), ['drive', 'target', 'drive_v_rms', [6, 4]]] },
+    { title: 'Capacitance', unit: 'pF', decimals: 1, least: 2, free: true, words: 'Between pad and sheet. It rises as the gap closes.',
+      lines: [measured('capacitance_pf'), ...known('true_capacitance_pf')] },
   ];
-  return list.filter(Boolean).map((strip) => ({ ...strip, lines: strip.lines.filter(Boolean) }));
+  const limit = limits.position_mm == null ? null : [limits.position_mm, 'limit'];
+  if (truth) list.push({ title: 'Position error', unit: 'mm', decimals: 2, least: 0.5, limit, words: 'Between measured and true position.',
+    lines: [['', 'measured', 'error_mm']] });
+  return list;
 }
 
-const lag = (pad) =>
-  pad.finger_x_mm == null ? null : length(pad.finger_x_mm - (pad.true_x_mm ?? pad.x_mm), pad.finger_y_mm - (pad.true_y_mm ?? pad.y_mm));
+const STEPS = [1, 1.2, 1.6, 2, 2.5, 3, 4, 5, 6, 8, 10];
 
-/** Rounded up to 1, 2 or 5 times a power of ten, so that axes do not tremble. */
-function round(value) {
-  const power = 10 ** Math.floor(Math.log10(value));
-  return [1, 2, 5, 10].find((step) => step * power >= value * 0.999) * power;
-}
-
-/** Range of an axis around data from `low` to `high`: zero is in it, unless the strip is `free`. */
-function range(strip, low, high) {
+/** Range of an axis in round steps, so that it does not tremble. Zero is in it, unless the strip is `free`. */
+function range({ least, free }, low, high) {
   if (low == null) [low, high] = [0, 0];
-  if (!strip.free) [low, high] = [Math.min(0, low), Math.max(0, high)];
-  const span = round(Math.max(strip.least, (high - low) * 1.08));
+  if (!free) [low, high] = [Math.min(0, low), Math.max(0, high)];
+  const wanted = Math.max(least, (high - low) * 1.1);
+  const power = 10 ** Math.floor(Math.log10(wanted));
+  const span = power * STEPS.find((step) => step * power >= wanted * 0.999);
   const step = span / 10;
-  const from = strip.free ? Math.floor((low + high - span) / 2 / step) * step : low < 0 ? Math.floor(low / step) * step : 0;
-  return [from, Math.max(from + span, Math.ceil(high / step) * step)];
+  const from = free ? Math.floor((low + high - span) / 2 / step) * step : Math.floor(low / step + 1e-6) * step;
+  return [from, Math.max(from + span, high)];
 }
+
+/** A time without the zeros at its end. */
+const seconds = (value) => `${fixed(value, 3).replace(/\.?0+$/, '')} s`;
+const plain = (value) => String(Number(value.toFixed(3))).replace('-', '−');
+
+/** What axes of all plots have in common. */
+export const axis = () => ({ stroke: colours.muted, grid: { stroke: colours.grid, width: 1 }, ticks: { show: false }, font: '11px system-ui' });
 
 export class Strips {
   constructor(box, model, onChange) {
@@ -70,55 +59,63 @@ export class Strips {
     new ResizeObserver(() => this.resize()).observe(box);
   }
 
-  get height() {
-    return window.innerWidth < 700 ? 92 : 116;
-  }
-
-  /** Makes the strips anew: after a new source and after a change of theme. */
+  /** Makes the strips anew: for a new source and after a change of theme. */
   build() {
     for (const { plot } of this.plots) plot.destroy();
     this.box.replaceChildren();
     const list = strips(this.model.hello);
     this.plots = list.map((strip, k) => this.add(strip, k === list.length - 1));
+    this.resize();
   }
 
   add(strip, last) {
     const figure = document.createElement('figure');
-    const caption = document.createElement('figcaption');
+    const caption = figure.appendChild(document.createElement('figcaption'));
     caption.title = strip.words;
-    caption.innerHTML = `<b>${strip.title}</b> <small>${strip.unit}</small>`;
-    const values = strip.lines.map((line) => legend(caption, line, strip.lines.length > 1));
-    figure.append(caption);
+    caption.innerHTML = `<b>${strip.title}</b> <small>${strip.unit}</small>` + strip.lines.map(([name, colour, , dash]) =>
+      `<span class="value"><i class="key line ${colour}${dash ? ' dashed' : ''}"></i>${name} <output></output></span>`).join('');
     this.box.append(figure);
     const plot = new window.uPlot(this.options(strip, last), [[], ...strip.lines.map(() => [])], figure);
-    figure.querySelector('canvas').setAttribute('aria-hidden', 'true');
-    return { plot, strip, values };
+    return { plot, strip, caption, last, values: caption.querySelectorAll('output') };
   }
 
   options(strip, last) {
-    const axis = { stroke: colours.muted, grid: { stroke: colours.grid, width: 1 }, ticks: { show: false }, font: '11px system-ui, sans-serif' };
-    const time = (u, ticks) => ticks.map((tick) => fixed(tick, 3).replace(/\.?0+$/, '') || '0');
     return {
-      width: this.box.clientWidth || 400, height: this.height + (last ? 22 : 0), padding: [6, 4, last ? 0 : 4, 0],
-      legend: { show: false },
-      cursor: { sync: { key: 'strips' }, y: false, drag: { x: true, y: false, setScale: false }, points: { size: 6 },
+      width: 400, height: PLOT_PIXELS, padding: [6, 4, last ? 0 : 4, 0], legend: { show: false },
+      cursor: { sync: { key: 'strips' }, y: false, drag: { x: true, y: false, setScale: false },
         bind: { dblclick: () => () => this.unzoom() } },
-      scales: { x: { time: false }, y: { range: (u, low, high) => range(strip, low, high) } },
-      axes: [{ ...axis, size: last ? 22 : 0, space: 60, gap: 2, values: last ? (u, ticks) => time(u, ticks).map((t) => `${t} s`) : () => [] },
-        { ...axis, size: 44, space: 24, gap: 4, values: (u, ticks) => ticks.map((tick) => String(+tick.toFixed(3)).replace('-', '−')) }],
-      series: [{}, ...strip.lines.map((line) => ({
-        stroke: colours[line.colour], width: line.name === 'measured' ? 1.75 : 1.25, dash: line.dash, points: { show: false } }))],
-      hooks: { drawAxes: [(u) => drawLimit(u, strip)], setSelect: [(u) => this.zoom(u)], setCursor: [(u) => this.point(u)] },
+      scales: { x: { time: false }, y: { range: (plot, low, high) => range(strip, low, high) } },
+      axes: [{ ...axis(), size: last ? AXIS_PIXELS : 0, space: 60, gap: 2, values: (plot, ticks) => ticks.map((tick) => (last ? seconds(tick) : '')) },
+        { ...axis(), size: 44, space: 24, gap: 4, values: (plot, ticks) => ticks.map(plain) }],
+      series: [{}, ...strip.lines.map(([, colour, , dash], k) =>
+        ({ stroke: colours[colour], width: k ? 1.25 : 1.75, dash, points: { show: false } }))],
+      hooks: { drawAxes: [(plot) => this.drawLimit(plot, strip)], setSelect: [(plot) => this.zoom(plot)], setCursor: [(plot) => this.point(plot)] },
     };
   }
 
+  /** A limit as a dashed line with the area beyond it shaded. */
+  drawLimit(plot, { limit, unit }) {
+    if (!limit || limit[0] > plot.scales.y.max) return;
+    const [{ left, top, width }, g, ratio] = [plot.bbox, plot.ctx, window.devicePixelRatio || 1];
+    const y = Math.round(plot.valToPos(limit[0], 'y', true));
+    g.save();
+    Object.assign(g, { fillStyle: colours.limit, strokeStyle: colours.limit, lineWidth: ratio, globalAlpha: 0.1 });
+    g.fillRect(left, top, width, y - top);
+    g.globalAlpha = 1;
+    g.setLineDash([4 * ratio, 4 * ratio]);
+    g.strokeRect(left, y, width, 0);
+    Object.assign(g, { font: `${11 * ratio}px system-ui`, textAlign: 'left' });
+    g.fillText(`${limit[1]} ${limit[0]} ${unit}`, left + 4 * ratio, y + 12 * ratio);
+    g.restore();
+  }
+
   /** Zooms to the span that was drawn with the pointer, and holds the picture. */
-  zoom(u) {
-    if (u.select.width < 4) return;
-    const range = [u.posToVal(u.select.left, 'x'), u.posToVal(u.select.left + u.select.width, 'x')];
-    u.setSelect({ left: 0, width: 0, top: 0, height: 0 }, false);
-    this.model.freeze(range[1]);
-    this.model.range = range;
+  zoom(plot) {
+    if (plot.select.width < 4) return;
+    const ends = [plot.select.left, plot.select.left + plot.select.width].map((left) => plot.posToVal(left, 'x'));
+    plot.setSelect({ left: 0, width: 0, top: 0, height: 0 }, false);
+    this.model.freeze(ends[1]);
+    this.model.range = ends;
     this.onChange();
   }
 
@@ -127,79 +124,43 @@ export class Strips {
     this.onChange();
   }
 
-  /** Follows the pointer: values at its time; with the picture held, the sheet at its time, too. */
-  point(u) {
-    const inside = u.cursor.left >= 0;
-    const cursor_s = inside ? u.posToVal(u.cursor.left, 'x') : null;
-    if (cursor_s === this.model.cursor_s || (inside && !u.over.matches(':hover'))) return;
-    this.model.cursor_s = cursor_s;
-    if (inside && this.model.frozen) this.model.held = this.model.at(cursor_s);
+  /** Shows values at the pointer's time; with the picture held, the sheet at that time, too. */
+  point(plot) {
+    const inside = plot.cursor.left >= 0;
+    if (inside && !plot.over.matches(':hover')) return;
+    const time_s = inside ? plot.posToVal(plot.cursor.left, 'x') : null;
+    if (time_s === this.model.cursor_s) return;
+    this.model.cursor_s = time_s;
+    if (inside && this.model.frozen) this.model.held = this.model.at(time_s);
     this.onChange();
   }
 
   resize() {
-    for (const [k, { plot }] of this.plots.entries()) {
-      plot.setSize({ width: this.box.clientWidth, height: this.height + (k === this.plots.length - 1 ? 22 : 0) });
-    }
+    const captions = this.plots.reduce((sum, { caption }) => sum + caption.offsetHeight + 6, 0);
+    const share = Math.floor((this.box.clientHeight - captions - AXIS_PIXELS) / this.plots.length);
+    const height = wide.matches ? Math.max(70, share) : PLOT_PIXELS;
+    for (const { plot, last } of this.plots) plot.setSize({ width: this.box.clientWidth, height: height + (last ? AXIS_PIXELS : 0) });
   }
 
-  /** Draws the strips of the chosen pad. */
   draw() {
     const { model } = this;
-    const [from, to] = model.span(this.span_s);
-    const frames = model.within([from, to]).filter((frame) => frame.pads[model.pad]);
-    const pads = frames.map((frame) => frame.pads[model.pad]);
+    const [min, max] = model.span(this.span_s);
+    const frames = model.within([min, max]).filter((frame) => frame.pads[model.pad]);
     const times = frames.map((frame) => frame.time_s);
     for (const { plot, strip } of this.plots) {
+      const data = strip.lines.map(([, , column]) => frames.map((frame) => frame.pads[model.pad][column]));
       plot.batch(() => {
-        plot.setData([times, ...strip.lines.map((line) => pads.map(line.get))], false);
-        plot.setScale('x', { min: from, max: to });
+        plot.setData([times, ...data], false);
+        plot.setScale('x', { min, max });
       });
     }
-    this.drawValues();
   }
 
   drawValues() {
     const { model } = this;
     const frame = model.cursor_s == null || !model.frames.length ? model.shown : model.at(model.cursor_s);
-    const pad = frame?.pads[model.pad];
     for (const { strip, values } of this.plots) {
-      strip.lines.forEach((line, k) => {
-        const text = pad ? fixed(line.get(pad), strip.decimals) : '–';
-        if (values[k].textContent !== text) values[k].textContent = text;
-      });
+      strip.lines.forEach(([, , column], k) => (values[k].textContent = fixed(frame?.pads[model.pad]?.[column], strip.decimals)));
     }
   }
-}
-
-function legend(caption, line, named) {
-  const item = document.createElement('span');
-  item.className = 'value';
-  item.innerHTML = `<i class="key line ${line.colour}${line.dash ? ' dashed' : ''}"></i>${named ? `${line.name} ` : ''}<output></output>`;
-  caption.append(item);
-  return item.lastElementChild;
-}
-
-/** A limit as a dashed line, with the area beyond it shaded. */
-function drawLimit(u, strip) {
-  const { top, left, width } = u.bbox;
-  if (strip.limit == null || strip.limit > u.scales.y.max) return;
-  const g = u.ctx;
-  const y = Math.round(u.valToPos(strip.limit, 'y', true));
-  const ratio = window.devicePixelRatio || 1;
-  g.save();
-  g.fillStyle = g.strokeStyle = colours.limit;
-  g.globalAlpha = 0.1;
-  g.fillRect(left, top, width, y - top);
-  g.globalAlpha = 1;
-  g.lineWidth = ratio;
-  g.setLineDash([4 * ratio, 4 * ratio]);
-  g.beginPath();
-  g.moveTo(left, y);
-  g.lineTo(left + width, y);
-  g.stroke();
-  g.font = `${11 * ratio}px system-ui, sans-serif`;
-  g.textAlign = 'left';
-  g.fillText(`${strip.limitName} ${strip.limit} ${strip.unit}`, left + 4 * ratio, y + 13 * ratio);
-  g.restore();
 }
