@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What is done to a pad at any time: its stimuli as the scene has them. In place of its haptic
-//! voltage a controller or a recording may set one as time goes on, each value held until the next.
-
-use std::collections::VecDeque;
+//! What is done to a pad at any time: its stimuli as the scene has them, or what has been set in
+//! their place (`pad_inputs.rs`).
 
 use crate::device::Device;
 use crate::effects::pad::Pad;
+use crate::format::Limits;
 use crate::pad::{PadPlan, pad_as_set};
+use crate::pad_inputs::PadInputs;
 use crate::stimulus::Moment;
 use crate::truth::Setpoint;
 
-/// The highest voltage of a source, V rms, as scenes have it.
-const MOST_V_RMS: f64 = 1e5;
+/// What the voltage of a source, V rms, the load on a pad, g, and a push on it, N, may be, as in scenes.
+pub(crate) const VOLTAGE: Limits = Limits::within(0.0, 1e5);
+pub(crate) const LOAD: Limits = Limits::within(0.0, 1e5);
+pub(crate) const PUSH: Limits = Limits::within(-1e4, 1e4);
 
-/// A voltage that cannot be set.
+/// An input of the plant that cannot be set.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum DriveError {
     /// The plant has no such pad.
@@ -24,7 +26,7 @@ pub enum DriveError {
         /// Pads of the plant.
         pads: usize,
     },
-    /// The plant has been seen at a later time, or the pad has a voltage set for one.
+    /// The plant has been evaluated at a later time, or the pad has the same input set for one.
     #[error("expected a time of {earliest_s} s or later, got {time_s} s")]
     Past {
         /// When it should have been set.
@@ -35,52 +37,31 @@ pub enum DriveError {
     /// The voltage is negative, too high, or no number.
     #[error("expected 0 to 100000 V rms, got {0}")]
     Voltage(f64),
-}
-
-/// Voltages that are set as time goes on, each held until the next.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct HeldVoltage {
-    /// Time and value, in the order of time; what a later one has replaced is forgotten.
-    updates: VecDeque<[f64; 2]>,
-}
-
-impl HeldVoltage {
-    /// From `time_s` on the voltage is `v_rms`; `now_s` is the time at which the plant was last
-    /// seen.
-    pub fn set(&mut self, time_s: f64, v_rms: f64, now_s: f64) -> Result<(), DriveError> {
-        let earliest_s = self.updates.back().map_or(now_s, |[last_s, _]| last_s.max(now_s));
-        if !(time_s >= earliest_s && time_s.is_finite()) {
-            return Err(DriveError::Past { time_s, earliest_s });
-        }
-        if !(0.0..=MOST_V_RMS).contains(&v_rms) {
-            return Err(DriveError::Voltage(v_rms));
-        }
-        if self.updates.back().is_some_and(|[last_s, _]| *last_s == time_s) {
-            self.updates.pop_back();
-        }
-        // A value that is set again changes nothing, so that it is no event either.
-        if self.updates.back().is_none_or(|[_, last_v]| *last_v != v_rms) {
-            self.updates.push_back([time_s, v_rms]);
-        }
-        Ok(())
-    }
-
-    /// Forgets what cannot be asked for any more once the pad has been evaluated at a time.
-    pub fn forget(&mut self, before_s: f64) {
-        while self.updates.get(1).is_some_and(|[time_s, _]| *time_s <= before_s) {
-            self.updates.pop_front();
-        }
-    }
-
-    fn at(&self, moment: Moment) -> Option<f64> {
-        let past = self.updates.partition_point(|[time_s, _]| moment.is_past(*time_s));
-        Some(self.updates[past.checked_sub(1)?][1])
-    }
-
-    fn next_event_s(&self, after_s: f64) -> f64 {
-        let next = self.updates.partition_point(|[time_s, _]| *time_s <= after_s);
-        self.updates.get(next).map_or(f64::INFINITY, |[time_s, _]| *time_s)
-    }
+    /// The load is negative, too high, or no number.
+    #[error("expected a load of 0 to 100000 g, got {0}")]
+    Load(f64),
+    /// A push is too high, or no number.
+    #[error("expected a push of -10000 to 10000 N, got {0}")]
+    Push(f64),
+    /// Nothing moves the pad but its trajectory.
+    #[error("expected no push: it acts on pads that a [hand] moves, and the scene has none")]
+    NoHand,
+    /// The pad's centre would be where the pad does not lie on the sheet.
+    #[error("expected a place within ±{} × ±{} mm, got [{}, {}]", reach_mm[0], reach_mm[1], place_mm[0], place_mm[1])]
+    Place {
+        /// Where it should go, mm from the sheet's centre.
+        place_mm: [f64; 2],
+        /// How far it may, mm.
+        reach_mm: [f64; 2],
+    },
+    /// A place that should be reached before the finger leaves for it.
+    #[error("expected to arrive after {from_s} s, got {at_s} s")]
+    Arrival {
+        /// When the finger leaves.
+        from_s: f64,
+        /// When it should arrive.
+        at_s: f64,
+    },
 }
 
 /// What pulls and presses a pad.
@@ -98,8 +79,8 @@ pub(crate) struct PadDrive<'a> {
     pub plan: &'a PadPlan,
     /// How long a point of a sweep lasts; infinite where nothing is swept.
     pub point_s: f64,
-    /// What has been set in place of the scene's voltage.
-    pub held: Option<&'a HeldVoltage>,
+    /// What has been set in place of what the scene says.
+    pub inputs: Option<&'a PadInputs>,
     pub device: &'a Device,
     /// What is done to one electrode of the pad in particular.
     pub electrode: Electrode,
@@ -152,15 +133,30 @@ impl Electrode {
 impl PadDrive<'_> {
     /// What the pad is set to.
     pub fn set(&self, moment: Moment) -> Setpoint {
+        let mut set = self.plan.set(self.point(moment), moment);
+        let Some(inputs) = self.inputs else { return set };
+        if let Some([x_mm, y_mm]) = inputs.finger.at(moment.time_s) {
+            (set.x_mm, set.y_mm) = (x_mm, y_mm);
+        }
+        set.load_g = inputs.load_g.at(moment).unwrap_or(set.load_g);
+        set.haptic_v_rms = inputs.voltage_v_rms.at(moment).unwrap_or(set.haptic_v_rms);
+        set
+    }
+
+    /// Where the scene has the finger, whatever has been set, mm.
+    pub fn scripted_mm(&self, moment: Moment) -> [f64; 2] {
         let set = self.plan.set(self.point(moment), moment);
-        Setpoint { haptic_v_rms: self.held_v_rms(moment).unwrap_or(set.haptic_v_rms), ..set }
+        [set.x_mm, set.y_mm]
     }
 
     /// What pulls and presses the pad, or its electrode.
     pub fn pull(&self, moment: Moment) -> Pull {
-        let [load_g, haptic_v_rms, eccentricity_mm] =
+        let [mut load_g, mut source_v_rms, eccentricity_mm] =
             self.plan.set_of_gap(self.point(moment), moment);
-        let source_v_rms = self.held_v_rms(moment).unwrap_or(haptic_v_rms);
+        if let Some(inputs) = self.inputs {
+            load_g = inputs.load_g.at(moment).unwrap_or(load_g);
+            source_v_rms = inputs.voltage_v_rms.at(moment).unwrap_or(source_v_rms);
+        }
         self.electrode.of_pad(source_v_rms, load_g, eccentricity_mm)
     }
 
@@ -169,13 +165,10 @@ impl PadDrive<'_> {
         self.device.haptic_wave.polarity(moment) * self.pull(moment).source_v_rms
     }
 
-    fn held_v_rms(&self, moment: Moment) -> Option<f64> {
-        self.held?.at(moment)
-    }
-
     /// The pad before any effect.
     pub fn pad(&self, moment: Moment) -> Pad {
-        let push_n = self.plan.push_n(moment);
+        let set_n = self.inputs.and_then(|inputs| inputs.push_n.at(moment));
+        let push_n = set_n.unwrap_or_else(|| self.plan.push_n(moment));
         Pad {
             polarity: self.device.haptic_wave.polarity(moment),
             ..pad_as_set(self.index, moment.time_s, &self.set(moment), push_n, self.device)
@@ -190,13 +183,16 @@ impl PadDrive<'_> {
     /// When the voltage or what presses the pad next steps or turns; where the pad's insulators
     /// charge, the polarity too.
     pub fn next_pull_event_s(&self, after_s: f64) -> f64 {
-        let scenes_s = || self.plan.next_voltage_event_s(after_s);
-        let voltage_s = match self.held {
-            Some(held) if held.at(Moment::at(after_s)).is_some() => held.next_event_s(after_s),
-            Some(held) => held.next_event_s(after_s).min(scenes_s()),
-            None => scenes_s(),
+        let of_voltage_s = || self.plan.next_voltage_event_s(after_s);
+        let of_load_s = || self.plan.next_load_event_s(after_s);
+        let [voltage_s, load_s] = match self.inputs {
+            None => [of_voltage_s(), of_load_s()],
+            Some(inputs) => [
+                inputs.voltage_v_rms.next_event_s(after_s, of_voltage_s),
+                inputs.load_g.next_event_s(after_s, of_load_s),
+            ],
         };
-        let pressure_s = self.plan.next_pressure_event_s(after_s, self.point_s);
+        let pressure_s = self.plan.next_pressure_event_s(after_s, self.point_s).min(load_s);
         let turn_s = match self.plan.charges {
             true => self.device.haptic_wave.next_turn_s(after_s),
             false => f64::INFINITY,
@@ -207,8 +203,17 @@ impl PadDrive<'_> {
     /// When anything next steps or turns. A line that turns more often than every `least_s` is one
     /// that does not turn at all.
     pub fn next_event_s(&self, after_s: f64, least_s: f64) -> f64 {
-        let motion_s = self.plan.next_motion_event_s(after_s, self.point_s, least_s);
-        self.next_pull_event_s(after_s).min(motion_s)
+        let turn_s = || self.plan.next_turn_s(after_s, least_s);
+        let of_push_s = || self.plan.next_push_event_s(after_s);
+        let [turn_s, push_s] = match self.inputs {
+            None => [turn_s(), of_push_s()],
+            Some(inputs) => [
+                inputs.finger.next_event_s(after_s, turn_s),
+                inputs.push_n.next_event_s(after_s, of_push_s),
+            ],
+        };
+        let motion_s = self.plan.next_motion_event_s(after_s, self.point_s);
+        self.next_pull_event_s(after_s).min(turn_s).min(push_s).min(motion_s)
     }
 
     /// The point of the sweep: the next one begins with its first slot.

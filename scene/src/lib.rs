@@ -46,6 +46,7 @@
 //! | read a scene, choose its fidelity by an error budget | [`Scene`], [`Case`], [`SceneError`] |
 //! | run a case: truth, phasors, ADC samples, calibrations | [`Plant`], [`Slot`], [`Truth`], [`Timing`], [`EffectCost`] |
 //! | drive a pad by a controller or a recording | [`Plant::set_drive`], [`DriveError`] |
+//! | move a pad's finger, press and push the pad while a case runs | [`Plant::lead`], [`Plant::release`], [`Plant::press`], [`Plant::push`] |
 //! | know the display that a scene describes | [`Device`], [`signs_by_place`] |
 //! | name a quantity, its unit and its truth | [`Quantity`] |
 //! | know what a scene claims | [`Criterion`], [`Measure`] |
@@ -58,7 +59,7 @@
 //! | --- | --- |
 //! | `error`, `format` | messages with file, line and key; TOML as a tree that knows which keys were read |
 //! | `terminals`, `device`, `ratios` | where the terminals are, sizes and full scales, signs of the ratios |
-//! | `stimulus`, `trajectory`, `pad`, `drive` | what a pad does over a sweep or over time, or is made to do |
+//! | `stimulus`, `trajectory`, `pad`, `pad_inputs`, `drive` | what a pad does over a sweep or over time, or is made to do |
 //! | `effects` | one file or folder for each effect; `effects::EFFECTS` is the list of all |
 //! | `case`, `scene`, `criterion`, `quantity` | a scene as it is read |
 //! | `plant`, `budget`, `nominal` | a case at work; errors of the fidelity levels; the sheet as its host knows it |
@@ -79,6 +80,7 @@ mod format;
 pub mod gallery;
 mod nominal;
 mod pad;
+mod pad_inputs;
 mod plant;
 mod quantity;
 mod random;

@@ -3,12 +3,13 @@
 //! fastest, then the load, the haptic voltage, the capacitance and the eccentricity.
 
 use crate::device::{Device, EPSILON_0};
+use crate::drive::{LOAD, PUSH, VOLTAGE};
 use crate::effects::pad::{FilmChange, Pad};
 use crate::effects::sheet::ideal::ideal_split;
 use crate::error::SceneError;
 use crate::format::{Limits, Table};
 use crate::stimulus::{Moment, Stimulus, next_multiple};
-use crate::trajectory::{SLACK_MM, Trajectory};
+use crate::trajectory::{self, SLACK_MM, Trajectory};
 use crate::truth::Setpoint;
 
 /// Capacitance of a pad that neither names one nor has a gap, pF: 5 kΩ at 100 kHz.
@@ -29,6 +30,10 @@ pub(crate) struct PadPlan {
     push_n: [Stimulus; 2],
     /// Its insulators charge, so that a turn of the haptic voltage's polarity changes what pulls it.
     pub charges: bool,
+    /// How far from the sheet's centre its centre may be, mm.
+    pub reach_mm: [f64; 2],
+    /// A finger moves it, so that pushes act on it.
+    pub has_finger: bool,
 }
 
 impl PadPlan {
@@ -62,10 +67,12 @@ impl PadPlan {
             target_n,
             push_n: [push("push_x_n")?, push("push_y_n")?],
             charges: has.charge,
+            reach_mm: trajectory::reach_mm(table, device)?,
+            has_finger: has.finger,
             name: table.text("name")?.unwrap_or_else(|| format!("pad {index}")),
             trajectory: Trajectory::read(table, device)?,
-            load_g: stimulus("load_g", Limits::within(0.0, 1e5), 20.0)?,
-            haptic_v_rms: stimulus("haptic_v_rms", Limits::within(0.0, 1e5), 0.0)?,
+            load_g: stimulus("load_g", LOAD, 20.0)?,
+            haptic_v_rms: stimulus("haptic_v_rms", VOLTAGE, 0.0)?,
             capacitance_pf: stimulus("capacitance_pf", Limits::above(0.0, 1e6), CAPACITANCE_PF)?,
         })
     }
@@ -194,28 +201,39 @@ impl PadPlan {
         self.haptic_v_rms.next_event_s(after_s)
     }
 
-    /// When next what presses the pad steps or turns, or a sweep sets load, voltage or eccentricity
+    /// When the load next steps or turns.
+    pub fn next_load_event_s(&self, after_s: f64) -> f64 {
+        self.load_g.next_event_s(after_s)
+    }
+
+    /// When next the push leaves the centre otherwise, or a sweep sets load, voltage or eccentricity
     /// anew, whose points last `point_s` each.
     pub fn next_pressure_event_s(&self, after_s: f64, point_s: f64) -> f64 {
-        let pressing = [&self.load_g, &self.eccentricity_mm];
-        let set_anew = if pressing.into_iter().chain([&self.haptic_v_rms]).any(|s| s.points() > 1) {
+        let swept = [&self.load_g, &self.eccentricity_mm, &self.haptic_v_rms];
+        let set_anew = if swept.into_iter().any(|s| s.points() > 1) {
             next_multiple(point_s * self.trajectory.points() as f64, after_s)
         } else {
             f64::INFINITY
         };
-        pressing.into_iter().map(|s| s.next_event_s(after_s)).fold(set_anew, f64::min)
+        self.eccentricity_mm.next_event_s(after_s).min(set_anew)
     }
 
-    /// When next the pad turns back or is placed anew, or what pushes it or its capacitance steps
-    /// or turns.
-    pub fn next_motion_event_s(&self, after_s: f64, point_s: f64, least_s: f64) -> f64 {
+    /// When the pad next turns back on its trajectory.
+    pub fn next_turn_s(&self, after_s: f64, least_s: f64) -> f64 {
+        self.trajectory.next_turn_s(after_s, least_s)
+    }
+
+    /// When what pushes the pad next steps or turns.
+    pub fn next_push_event_s(&self, after_s: f64) -> f64 {
         let [x, y] = &self.push_n;
+        x.next_event_s(after_s).min(y.next_event_s(after_s))
+    }
+
+    /// When next the pad is placed anew, or its capacitance steps or turns.
+    pub fn next_motion_event_s(&self, after_s: f64, point_s: f64) -> f64 {
         let placed =
             if self.points() > 1 { next_multiple(point_s, after_s) } else { f64::INFINITY };
-        let stimuli = [x, y, &self.capacitance_pf].map(|stimulus| stimulus.next_event_s(after_s));
-        stimuli
-            .into_iter()
-            .fold(placed.min(self.trajectory.next_turn_s(after_s, least_s)), f64::min)
+        placed.min(self.capacitance_pf.next_event_s(after_s))
     }
 }
 
@@ -237,7 +255,7 @@ pub(crate) fn pad_as_set(
 
 /// A push, over time only.
 fn read_push(table: &Table, key: &'static str) -> Result<Stimulus, SceneError> {
-    over_time(table, key, "a push", Stimulus::read(table, key, Limits::within(-1e4, 1e4))?)
+    over_time(table, key, "a push", Stimulus::read(table, key, PUSH)?)
 }
 
 /// A stimulus that is not swept; zero where there is none.

@@ -7,6 +7,7 @@
 //! served: ask for slots in rising order.
 
 mod calibrating;
+mod inputs;
 
 use std::ops::Range;
 
@@ -14,11 +15,12 @@ use num_complex::Complex64;
 
 use crate::case::{Case, Length};
 use crate::device::Device;
-use crate::drive::{DriveError, Electrode, HeldVoltage, PadDrive};
+use crate::drive::{Electrode, PadDrive};
 use crate::effects::{EffectCost, Effects, Pad, Phasors, Run, SPLITTING, Setting};
 use crate::error::{Place, SceneError};
 use crate::nominal::NominalSheet;
 use crate::pad::resting;
+use crate::pad_inputs::PadInputs;
 use crate::ratios::{self, Ratios};
 use crate::scene::Scene;
 use crate::stimulus::Moment;
@@ -58,8 +60,8 @@ pub struct Plant {
     index: usize,
     ratios: Ratios,
     effects: Effects,
-    /// Voltages set in place of the scene's, for each pad; empty where none has been set.
-    held: Vec<HeldVoltage>,
+    /// What has been set in place of what the scene says, for each pad; empty where nothing has been set.
+    inputs: Vec<PadInputs>,
     /// The latest time that was asked for.
     latest_s: f64,
     /// The pads that the slot does not serve, where effects ask for them.
@@ -118,7 +120,7 @@ impl Plant {
         let now = (None, resting([0.0; 2], 0.0, 0.0, &device));
         let ratios = ratios::of_device(&device, timing.signs.as_ref());
         let ratios = ratios.map_err(|message| SceneError::new(Place::File, "profile", message))?;
-        let (timing, held, others) = (timing.clone(), Vec::new(), Vec::new());
+        let (timing, inputs, others) = (timing.clone(), Vec::new(), Vec::new());
         let plant = Plant {
             effects,
             ratios,
@@ -127,7 +129,7 @@ impl Plant {
             timing,
             seed,
             index,
-            held,
+            inputs,
             latest_s: 0.0,
             others,
             now,
@@ -261,52 +263,6 @@ impl Plant {
     /// not [metered](Plant::metered).
     pub fn effects(&self) -> Vec<EffectCost> {
         self.effects.costs()
-    }
-
-    /// Sets a pad's haptic voltage at its source: from `time_s` on it is this, until it is set
-    /// again, whatever the scene says. A controller or a recording drives the plant so, slot by
-    /// slot; load and position stay the scene's. Parts of a pad have one source: any of their
-    /// numbers sets it.
-    ///
-    /// Times of a pad do not fall, and none is before the middle of the window of a slot that has
-    /// been asked for. Several may be set ahead.
-    ///
-    /// ```
-    /// # use hapticore_scene::{Plant, Scene, Timing};
-    /// # let text = "title = \"t\"\nduration_s = 0.5\n[[pad]]\nposition_mm = [0, 0]\nload_g = 50\n\
-    /// #     [gap]\nrung = \"tr-bdf2\"\n[friction]\n";
-    /// # let scene = Scene::parse(text, "t.toml", &[])?;
-    /// # let timing = Timing {
-    /// #     pads: 4, slot_samples: 1700, window_start: 700, window_samples: 1000, samples_per_period: 10.0, signs: None,
-    /// # };
-    /// let mut plant = Plant::new(&scene, 0, &timing)?;
-    /// let (slot_s, target_n, mut volt) = (1.7e-3, 0.3, 0.0);
-    /// let mut force_n = 0.0;
-    /// for slot in 0..plant.slots() {
-    ///     force_n = plant.truth(slot).force_n; // or what a core makes of the slot's samples
-    ///     volt = (volt + 30.0 * (target_n - force_n)).max(0.0);
-    ///     plant.set_drive(0, (slot + 1) as f64 * slot_s, volt)?; // at the end of the slot
-    /// }
-    /// assert!((force_n - target_n).abs() < 0.02, "{force_n}");
-    /// assert!(plant.set_drive(0, 0.1, volt).is_err()); // what has happened cannot be changed
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
-    ///
-    /// # Errors
-    /// No such pad, a time that is past, a voltage outside 0 to 100 kV.
-    pub fn set_drive(
-        &mut self,
-        pad: usize,
-        time_s: f64,
-        haptic_v_rms: f64,
-    ) -> Result<(), DriveError> {
-        let pads = self.served();
-        if pad >= pads {
-            return Err(DriveError::NoPad { pad, pads });
-        }
-        let pad = pad / self.parts();
-        self.held.resize_with(self.case.pads.len(), HeldVoltage::default);
-        self.held[pad].set(time_s, haptic_v_rms, self.latest_s)
     }
 
     /// The force that a controller shall give a pad at a time, N; 0 where the scene has none.
@@ -474,18 +430,18 @@ impl Plant {
 
     /// A pad as if it were the only one.
     fn alone(&mut self, index: usize, part: Option<usize>, time_s: f64) -> Pad {
-        let drive = drive(&self.case, &self.timing, &self.device, &self.held, index);
+        let drive = drive(&self.case, &self.timing, &self.device, &self.inputs, index);
         let mut pad = Pad { part, ..drive.pad(Moment::at(time_s)) };
         self.effects.on_pad(&mut pad, &drive);
-        if let Some(held) = self.held.get_mut(index) {
-            held.forget(time_s);
+        if let Some(inputs) = self.inputs.get_mut(index) {
+            inputs.forget(time_s);
         }
         pad
     }
 
     /// What is done to a pad.
     fn drive(&self, index: usize) -> PadDrive<'_> {
-        drive(&self.case, &self.timing, &self.device, &self.held, index)
+        drive(&self.case, &self.timing, &self.device, &self.inputs, index)
     }
 }
 
@@ -493,7 +449,7 @@ fn drive<'a>(
     case: &'a Case,
     timing: &Timing,
     device: &'a Device,
-    held: &'a [HeldVoltage],
+    inputs: &'a [PadInputs],
     index: usize,
 ) -> PadDrive<'a> {
     let point_s = match case.length {
@@ -504,5 +460,6 @@ fn drive<'a>(
         Length::Time { .. } => f64::INFINITY,
     };
     let plan = &case.pads[index];
-    PadDrive { index, plan, point_s, held: held.get(index), device, electrode: Electrode::WHOLE }
+    let inputs = inputs.get(index);
+    PadDrive { index, plan, point_s, inputs, device, electrode: Electrode::WHOLE }
 }

@@ -28,6 +28,19 @@ const TURNS: Limits = Limits::within(-1e6, 1e6);
 /// Rounding of a trajectory that reaches just to the edge is not a pad over the edge.
 pub(crate) const SLACK_MM: f64 = 1e-9;
 
+/// How far from the sheet's centre a pad's centre may be, mm.
+pub(crate) fn reach_mm(pad: &Table, device: &Device) -> Result<[f64; 2], SceneError> {
+    Ok(match pad.flag("over_edge")? {
+        true => [device.width_mm, device.height_mm].map(|size| size / 2.0),
+        false => device.reach_mm(),
+    })
+}
+
+/// Whether a place is within a reach.
+pub(crate) fn is_within(place: Point, reach: Point) -> bool {
+    [0, 1].into_iter().all(|axis| place[axis].abs() <= reach[axis] + SLACK_MM)
+}
+
 /// A pad's position over sweep points or time.
 #[derive(Clone, Debug)]
 pub(crate) enum Trajectory {
@@ -58,12 +71,8 @@ impl Trajectory {
                 Trajectory::Points(vec![pad.require(KEY, "[x, y]", pad.pair(KEY, Limits::ANY)?)?])
             }
         };
-        let reach = if pad.flag("over_edge")? {
-            [device.width_mm, device.height_mm].map(|size| size / 2.0)
-        } else {
-            device.reach_mm()
-        };
-        match trajectory.extremes().into_iter().find(|[x, y]| x.abs() > reach[0] + SLACK_MM || y.abs() > reach[1] + SLACK_MM) {
+        let reach = reach_mm(pad, device)?;
+        match trajectory.extremes().into_iter().find(|place| !is_within(*place, reach)) {
             None => Ok(trajectory),
             Some([x, y]) => Err(pad.error(
                 KEY,

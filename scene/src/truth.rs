@@ -96,6 +96,12 @@ pub struct Setpoint {
 type Taken = fn(&Setpoint) -> f64;
 
 impl Setpoint {
+    /// Where the pad's finger is, mm from the sheet's centre: where the pad should be, or what pulls it
+    /// there with `[hand]`.
+    pub fn finger_mm(&self) -> [f64; 2] {
+        [self.x_mm, self.y_mm]
+    }
+
     /// Keys and values, in the order in which a sweep varies them, the fastest first.
     const KEYS: [(&str, Taken); 7] = [
         ("x_mm", |set| set.x_mm),

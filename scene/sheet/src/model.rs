@@ -20,7 +20,7 @@ pub struct PadEstimate {
 }
 
 /// The nominal sheet of a device: how it splits the currents of pads among its terminals.
-pub trait SheetModel: Send {
+pub trait SheetModel: Send + Sync {
     /// Both ratios of an isolated pad, and the resistance R_p that it sees, Ω.
     fn isolated(&mut self, pad: &PadEstimate) -> ([f64; 2], f64);
 

@@ -19,7 +19,7 @@ pub(crate) enum Effect {
 }
 
 /// Acts on the pad, once per slot.
-pub(crate) trait PadEffect: Send {
+pub(crate) trait PadEffect: Send + Sync {
     /// On a pad that has been so for ever, where the effect has a state.
     fn act(&mut self, pad: &mut Pad);
     /// On the pad at its time, to which its drive has brought the effect's state. The state that is
@@ -51,12 +51,12 @@ pub(crate) trait PadEffect: Send {
 }
 
 /// Acts on the pad that a slot serves, once per slot, in sight of all others.
-pub(crate) trait PadsEffect: Send {
+pub(crate) trait PadsEffect: Send + Sync {
     fn act(&mut self, pad: &mut Pad, others: &[Pad]);
 }
 
 /// Acts on what the ADC sees of a pad.
-pub(crate) trait ChannelEffect: Send {
+pub(crate) trait ChannelEffect: Send + Sync {
     /// On the amplitudes that a demodulator over the slot's window would find.
     fn phasors(&mut self, pad: &Pad, phasors: &mut Phasors);
     /// On the samples of a run, one [row](Run::rows) of channels per sample instant. The carrier, the first

@@ -2,7 +2,7 @@
 //! Four pads of 760 pF, measured by an ideal core that is calibrated on its device, their crosstalk
 //! cancelled by a host that knows the nominal sheet and that calibration.
 
-use std::cell::RefCell;
+use std::sync::Mutex;
 
 use hapticore_host::CrosstalkCanceller;
 
@@ -54,12 +54,12 @@ fn without<T: Copy>(all: &[T], one: usize) -> Vec<T> {
 }
 
 /// The device as it is, which only its calibration knows.
-struct Exact(RefCell<NominalSheet>);
+struct Exact(Mutex<NominalSheet>);
 
 impl Exact {
     fn of(plant: &Plant) -> Exact {
         let (effects, device, ratios) = (plant.fresh_effects(), plant.device(), plant.ratios());
-        Exact(RefCell::new(NominalSheet { effects, device, ratios }))
+        Exact(Mutex::new(NominalSheet { effects, device, ratios }))
     }
 
     /// What the core reads of each pad: where an isolated one has its ratios, and the capacitance
@@ -69,7 +69,7 @@ impl Exact {
         let one = |slot: usize| {
             let truth = plant.truth(slot);
             let place = place_of(self, &plant.ratios(), [truth.r_x, truth.r_y], places[slot]);
-            let mut exact = self.0.borrow_mut();
+            let mut exact = self.0.lock().unwrap();
             let share = exact.with_neighbours(&pads[slot], &without(&pads, slot)).1
                 / exact.with_neighbours(&pads[slot], &[]).1;
             (PadEstimate { capacitance_pf: PICOFARAD * share, ..at(place) }, [truth.r_x, truth.r_y])
@@ -80,7 +80,7 @@ impl Exact {
 
 impl Solver for Exact {
     fn split(&self, x_mm: f64, y_mm: f64) -> Split {
-        let mut exact = self.0.borrow_mut();
+        let mut exact = self.0.lock().unwrap();
         let mut pad = pad_of_frame([x_mm, y_mm], PICOFARAD, &exact.device);
         exact.effects.on_resting_pad(&mut pad);
         Split { share: pad.split.map(|share| share.re), ohm: pad.sheet_ohm.re }

@@ -20,6 +20,6 @@ impl Split {
 }
 
 /// One way to get the split at a place, x and y in mm from the centre.
-pub(crate) trait Solver: Send {
+pub(crate) trait Solver: Send + Sync {
     fn split(&self, x_mm: f64, y_mm: f64) -> Split;
 }
