@@ -6,6 +6,7 @@
 //!
 //! `cargo run --release -p hapticore --example budget_speed [-- SCENE…]`
 
+use std::sync::Arc;
 use std::time::Instant;
 
 use anyhow::Result;
@@ -69,15 +70,16 @@ fn once(name: &str, percent: &str, open: &Set) -> Result<([f64; 3], String)> {
     let start = Instant::now();
     let scene = scene.within_budget(&inputs::timing(&profile))?;
     let choose = start.elapsed().as_secs_f64();
-    let together = run(&[&scene], &profile)?;
+    let scene = Arc::new(scene);
+    let together = run(&[scene.clone()], &profile)?;
     let named = scene.cases.iter().map(named).collect::<Result<Vec<_>>>()?;
-    let alone = run(&named.iter().collect::<Vec<_>>(), &profile)?;
+    let alone = run(&named.into_iter().map(Arc::new).collect::<Vec<_>>(), &profile)?;
     let levels: Vec<_> = scene.cases.iter().map(|case| words(case).join(", ")).collect();
     Ok(([choose, together, alone], levels.join("; ")))
 }
 
 /// Seconds of all cases.
-fn run(scenes: &[&Scene], profile: &Profile) -> Result<f64> {
+fn run(scenes: &[Arc<Scene>], profile: &Profile) -> Result<f64> {
     let start = Instant::now();
     for scene in scenes {
         for index in 0..scene.cases.len() {

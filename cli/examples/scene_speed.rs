@@ -5,6 +5,7 @@
 //! `cargo run --release -p hapticore --example scene_speed [-- SCENE…]`, `fig7` unless said
 //! otherwise; `taskset -c 0` before it keeps all of it on one processor.
 
+use std::sync::Arc;
 use std::time::Instant;
 
 use anyhow::Result;
@@ -54,7 +55,7 @@ fn once(name: &str, carrier: &str, fidelity: Fidelity) -> Result<[f64; 3]> {
     let scene = inputs::scene(name, &[("carrier.rung".into(), carrier.into())])?;
     let profile = inputs::windowed(inputs::profile(&scene.profile)?, &scene)?;
     let choosing = Instant::now();
-    let scene = scene.within_budget(&inputs::timing(&profile))?;
+    let scene = Arc::new(scene.within_budget(&inputs::timing(&profile))?);
     let levels = choosing.elapsed().as_secs_f64();
     let mut cases: Vec<Case> = Vec::new();
     for index in 0..scene.cases.len() {

@@ -15,6 +15,7 @@ use hapticore_run::engine::{Signals, Slot};
 use hapticore_run::haptic::Meter;
 use hapticore_run::record::{Provenance, Record, Row, Rows};
 use hapticore_run::session::Session;
+use hapticore_run::stepper::Options;
 use hapticore_run::wiring::Wiring;
 use hapticore_run::{calibrate, inputs, interrupt, silent};
 
@@ -152,15 +153,11 @@ impl Replay {
         let clock = SlotClock::new(profile, device.device.sample_rate_hz, 0.0);
         let channels = profile.channels();
         let calibration = device.for_profile(profile)?;
+        let (fidelity, errors) = (args.core.fidelity(), args.core.errors);
+        let options = Options { fidelity, errors, reference: true };
         Ok(Replay {
             residual: device.residual(&calibration),
-            session: Session::new(
-                profile,
-                (device, &calibration),
-                (args.core.fidelity(), None),
-                args.core.errors,
-                (0, clock),
-            )?,
+            session: Session::new(profile, (device, &calibration), (options, None), (0, clock))?,
             frames: Frames::create(output, None)?,
             rows: Thinned::default(),
             clock,
@@ -191,7 +188,7 @@ impl Replay {
             slots.slot_samples(),
             slots.left()
         );
-        let last = self.session.finish();
+        let last = self.session.finish()?;
         last.into_iter().try_for_each(|row| self.row(row))?;
         self.write()?;
         bar.finish_and_clear();
@@ -208,7 +205,7 @@ impl Replay {
         }
         self.flags.push_back(flags);
         let slot = Slot { pad, signals: Signals::Samples { codes, blanking: self.blanking_codes } };
-        let row = self.session.slot(&slot, None);
+        let row = self.session.slot(&slot, None)?;
         row.into_iter().try_for_each(|row| self.row(row))?;
         self.slots += 1;
         Ok(())

@@ -3,6 +3,7 @@
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::Instant;
 
 use anyhow::{Result, ensure};
@@ -36,7 +37,8 @@ pub fn run(args: &SimulateArgs) -> Result<bool> {
     let scene = inputs::scene(&args.scene, &args.set)?;
     let profile = inputs::profile(args.core.profile.as_ref().unwrap_or(&scene.profile))?;
     let profile = inputs::windowed(profile, &scene)?;
-    let scene = scene.within_budget(&Timing { signs: None, ..inputs::timing(&profile) })?;
+    let timing = Timing { signs: None, ..inputs::timing(&profile) };
+    let scene = Arc::new(scene.within_budget(&timing)?);
     let folder = args.out.clone().unwrap_or_else(|| folder::of_scene(args, &scene.name));
     let (record, files) = write(args, &scene, &profile, &folder)?;
     print::warnings(&record);
@@ -51,7 +53,7 @@ pub fn run(args: &SimulateArgs) -> Result<bool> {
 /// Runs a scene and writes everything; what it left, and the files.
 fn write(
     args: &SimulateArgs,
-    scene: &Scene,
+    scene: &Arc<Scene>,
     profile: &Profile,
     folder: &Path,
 ) -> Result<(Record, Vec<PathBuf>)> {
@@ -111,7 +113,7 @@ fn write_frames(output: &Output, record: &Record) -> Result<()> {
 }
 
 /// The cases to be run, one after the other in time.
-fn cases<'a>(args: &SimulateArgs, scene: &'a Scene, profile: &Profile) -> Result<Vec<Case<'a>>> {
+fn cases(args: &SimulateArgs, scene: &Arc<Scene>, profile: &Profile) -> Result<Vec<Case>> {
     let names: Vec<_> = scene.cases.iter().map(|case| case.name.as_str()).collect();
     if let Some(unknown) = args.case.iter().find(|name| !names.contains(&name.as_str())) {
         anyhow::bail!("--case: expected a case among {}, got \"{unknown}\"", names.join(", "));

@@ -57,7 +57,7 @@ pub fn of_cases(cases: &[Case], unstable: bool) -> Result<BTreeMap<String, Stabi
 /// A look at a loop at a force.
 #[derive(Clone, Copy)]
 struct Look<'a> {
-    case: &'a Case<'a>,
+    case: &'a Case,
     force_n: f64,
     /// The largest target of the case, from which gains follow that the scene leaves out.
     most_n: f64,
@@ -65,7 +65,7 @@ struct Look<'a> {
 
 impl<'a> Look<'a> {
     /// Those at a case, none where nothing is asked of its pads.
-    fn of(case: &'a Case<'a>) -> Result<Vec<Self>> {
+    fn of(case: &'a Case) -> Result<Vec<Self>> {
         let most_n = case.plant()?.largest_targets_n().into_iter().fold(0.0, f64::max);
         let forces_n = PARTS.map(|part| part * most_n).into_iter().filter(|force_n| *force_n > 0.0);
         Ok(forces_n.map(|force_n| Look { case, force_n, most_n }).collect())

@@ -2,6 +2,7 @@
 //! Devices drawn at random, and how well a calibrated core finds a pad on them.
 
 use std::fmt::Write;
+use std::sync::Arc;
 
 use fastrand::Rng;
 use hapticore_contract::profile::Profile;
@@ -12,6 +13,7 @@ use hapticore_run::engine::{Signals, Slot};
 use hapticore_run::maker::Maker;
 use hapticore_run::record::{Quantities, Row};
 use hapticore_run::session::Session;
+use hapticore_run::stepper::Options;
 use hapticore_scene::Scene;
 
 /// A sheet with terminals.
@@ -188,20 +190,21 @@ pub fn disturbed_rows(
     scene: &str,
     disturb: impl Fn(usize, &mut Signals),
 ) -> (Vec<Row>, Residual) {
-    let scene = Scene::parse(scene, "device", &[]).expect("a scene");
+    let scene = Arc::new(Scene::parse(scene, "device", &[]).expect("a scene"));
     let case = Case::new(&scene, 0, profile, &[]).expect("a case");
     let mut maker =
         Maker::new(case.plant().expect("a plant"), &case.profile, scene.cases[0].sampled(), false);
     let at = (0, case.clock);
     let device = (&**case.device, case.calibration().expect("a calibration"));
-    let mut session =
-        Session::new(&case.profile, device, (Fidelity::Fixed, None), false, at).expect("a session");
+    let options = Options { fidelity: Fidelity::Fixed, errors: false, reference: true };
+    let mut session = Session::new(&case.profile, device, (options, None), at).expect("a session");
     let row = |slot| {
         let truth = maker.plant().truth(slot);
         let (mut signals, _) = maker.signals(slot);
         disturb(slot, &mut signals);
         let slot = Slot { pad: truth.pad, signals };
-        session.slot(&slot, Some(record_truth(&truth))).expect("a reading with each slot")
+        let row = session.slot(&slot, Some(record_truth(&truth))).expect("a slot of the case");
+        row.expect("a measurement with each slot")
     };
     let rows = (0..case.slots).map(row).collect();
     (rows, case.residual().expect("a calibration"))

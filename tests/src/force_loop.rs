@@ -3,6 +3,7 @@
 //! trace of it, Verilog that outputs the model's drive words has moved the plant as the model did.
 
 use std::collections::VecDeque;
+use std::sync::Arc;
 
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::bundle::Bundle;
@@ -49,7 +50,7 @@ impl Closed {
         set: &[(String, String)],
         slots: usize,
     ) -> Self {
-        let scene = inputs::scene(scene, set).expect("bundled");
+        let scene = Arc::new(inputs::scene(scene, set).expect("bundled"));
         let profile = inputs::windowed(profile.clone(), &scene).expect("a profile");
         let case = Case::new(&scene, case, &profile, &[]).expect("a case");
         let calibration = case.calibration().expect("a calibration").clone();

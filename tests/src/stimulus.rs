@@ -4,6 +4,7 @@
 
 use std::collections::VecDeque;
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
 use fastrand::Rng;
 use hapticore_contract::profile::Profile;
@@ -247,7 +248,7 @@ fn disturbed(inputs: Inputs<i64>, rng: &mut Rng, table: &Memory) -> Inputs<i64> 
 /// # Panics
 /// Where there is no such scene.
 pub fn scene(profile: &Profile, name: &str, slots: usize) -> Stimulus {
-    let scene = inputs::scene(name, &[]).expect("bundled");
+    let scene = Arc::new(inputs::scene(name, &[]).expect("bundled"));
     let case = Case::new(&scene, 0, profile, &[]).expect("a case");
     let calibration = case.calibration().expect("a calibration").clone();
     let mut maker = Maker::new(case.plant().expect("a plant"), &case.profile, true, true);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! How a force loop follows its target: scene `fig9` at fidelity `fixed` under other laws and loads.
 
+use std::sync::Arc;
+
 use hapticore_run::case::{Case, Settings};
 use hapticore_run::control::bode;
 use hapticore_run::control::stability::OpenLoop;
@@ -117,7 +119,7 @@ fn slots(case: &Case) -> Vec<Followed> {
 
 const FIXED: Settings = Settings { fidelity: Fidelity::Fixed, errors: false };
 
-fn case<'a>(division: &Division, scene: &'a Scene, name: &str) -> Case<'a> {
+fn case(division: &Division, scene: &Arc<Scene>, name: &str) -> Case {
     let index = scene.cases.iter().position(|found| found.name == name).expect("a case");
     let profile = inputs::profile(division.profile).expect("bundled");
     let profile = inputs::windowed(profile, scene).expect("a window");
@@ -169,7 +171,7 @@ pub fn follow_integral(division: &Division, gains: [f64; 2], target: &str) -> Ve
 }
 
 /// `fig9` in other slots; further pads have a target of zero.
-fn scene(division: &Division, control: &[(&str, &str)], load_g: f64) -> Scene {
+fn scene(division: &Division, control: &[(&str, &str)], load_g: f64) -> Arc<Scene> {
     let text = |(key, value): &(&str, &str)| (format!("control.{key}"), quoted(value));
     let mut set: Vec<_> = control.iter().map(text).collect();
     set.push(("pad.0.load_g".into(), load_g.to_string()));
@@ -185,7 +187,8 @@ fn scene(division: &Division, control: &[(&str, &str)], load_g: f64) -> Scene {
         .replacen("[sheet]", &format!("{others}[sheet]"), 1)
         .replace("settle_samples = 390", &format!("settle_samples = {settle}"))
         .replace("window_samples = 600", &format!("window_samples = {window}"));
-    Scene::parse(&scene, "fig9.toml", &set).unwrap_or_else(|error| panic!("{error}"))
+    let scene = Scene::parse(&scene, "fig9.toml", &set);
+    Arc::new(scene.unwrap_or_else(|error| panic!("{error}")))
 }
 
 fn quoted(value: &str) -> String {

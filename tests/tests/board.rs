@@ -11,6 +11,8 @@ mod random;
 #[path = "board/recording.rs"]
 mod recording;
 
+use std::sync::Arc;
+
 use device::{Sight, calibration, codes};
 use hapticore_contract::calibration::Calibration;
 use hapticore_contract::control::{Control, Law, Tuning};
@@ -214,7 +216,7 @@ fn boards_tell_over_their_line_what_the_model_computes_from_what_their_adc_saw()
 /// A board as it is, with the codes of `hockey`, returns what `simulate` makes of them.
 fn returns_what_simulate_gives(target: Target, simulator: Simulator) {
     let profile = target.profile();
-    let scene = inputs::scene("hockey", &[]).expect("bundled");
+    let scene = Arc::new(inputs::scene("hockey", &[]).expect("bundled"));
     let case = Case::new(&scene, 0, &profile, &[]).expect("a case");
     assert_eq!(*case.profile, profile, "the scene has as many pads as the board");
     let calibration = case.device.for_profile(&profile).expect("a calibration");

@@ -7,6 +7,7 @@
 //! hapticore-tests --test devices -- --nocapture random`.
 
 use std::env;
+use std::sync::Arc;
 
 use hapticore_contract::profile::Profile;
 use hapticore_run::case::Case;
@@ -207,9 +208,9 @@ fn a_case_after_others_has_the_calibration_that_it_has_alone() {
 }
 
 /// A scene with its levels chosen, and its profile.
-fn chosen(text: &str) -> (Scene, Profile) {
+fn chosen(text: &str) -> (Arc<Scene>, Profile) {
     let scene = Scene::parse(text, "scene.toml", &[]).expect("a scene");
     let profile = inputs::windowed(profile(&scene.profile), &scene).expect("a profile");
     let timing = Timing { signs: None, ..inputs::timing(&profile) };
-    (scene.within_budget(&timing).expect("levels within the budget"), profile)
+    (Arc::new(scene.within_budget(&timing).expect("levels within the budget")), profile)
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A case of a scene, run: while the core works on some slots, workers generate the next ones (`prefetch.rs`).
 
-use std::collections::VecDeque;
 use std::sync::{Arc, LazyLock, OnceLock};
 
 use anyhow::{Result, bail, ensure};
@@ -14,7 +13,8 @@ use hapticore_host::{
     CrosstalkCanceller, DeviceCalibration, QUANTITIES, Residual, SlotClock, quantities_of,
 };
 use hapticore_scene::{
-    ControlPlan, EffectCost, Figure, LevelDeviation, Plant, Scene, Truth, signs_by_place,
+    ControlPlan, EffectCost, Figure, LevelDeviation, NominalSheet, Plant, Scene, Truth,
+    signs_by_place,
 };
 
 use crate::calibrate::{self, bench::Bench};
@@ -28,8 +28,9 @@ use crate::inputs::{buildable, timing};
 use crate::interrupt;
 use crate::maker::Maker;
 use crate::prefetch::{PreparedSlot, prefetch};
-use crate::record::{self, Driven, Row, SignalError};
+use crate::record::{self, Row, SignalError};
 use crate::session::Session;
+use crate::stepper::{Options, Stepper};
 
 /// Bytes of the slots that are generated ahead of the core.
 const KEPT: usize = 8 << 20;
@@ -40,10 +41,11 @@ const MOST_SLOTS: usize = 10_000_000;
 /// Figures that show the force by eq. 8 and by the table side by side.
 const BOTH: [Figure; 2] = [Figure::Fig6, Figure::Fig7];
 
-/// A case, ready to be run.
-pub struct Case<'a> {
+/// A case, ready to be run. Clones share what is known of the device and the controller's tuning.
+#[derive(Clone)]
+pub struct Case {
     /// Scene that the case belongs to.
-    pub scene: &'a Scene,
+    pub scene: Arc<Scene>,
     /// Which of the scene's cases it is.
     pub index: usize,
     /// Which of the cases that are run it is.
@@ -62,7 +64,7 @@ pub struct Case<'a> {
     bench: Option<Bench>,
     calibrated: Arc<Calibrated>,
     /// The controller's tuning, once it has been asked for.
-    tuned: OnceLock<Option<(Gains, Tuning)>>,
+    tuned: Arc<OnceLock<Option<(Gains, Tuning)>>>,
 }
 
 /// A value that is computed on first access. So a device is calibrated while other threads generate slots.
@@ -75,6 +77,21 @@ struct Calibrated {
     words: OnceLock<Result<Calibration, DeviceWordsError>>,
     /// What their position table leaves of its own places.
     residual: OnceLock<Residual>,
+}
+
+/// What a host knows of a plant, for the core and for the reference.
+pub(crate) struct OfPlant {
+    sheets: Option<[NominalSheet; 2]>,
+    directions: [Option<Directions>; 2],
+}
+
+impl OfPlant {
+    pub fn new(plant: &Plant) -> Self {
+        OfPlant {
+            sheets: plant.nominal_sheet().zip(plant.nominal_sheet()).map(Into::into),
+            directions: [0, 1].map(|_| Directions::of(plant)),
+        }
+    }
 }
 
 /// What a case left.
@@ -91,6 +108,7 @@ pub struct Outcome {
 }
 
 /// How to run cases.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Settings {
     /// How exactly the core is run.
     pub fidelity: Fidelity,
@@ -98,13 +116,31 @@ pub struct Settings {
     pub errors: bool,
 }
 
-impl<'a> Case<'a> {
+impl Settings {
+    /// The core with the floating-point reference on the same samples.
+    pub(crate) fn options(&self) -> Options {
+        Options { fidelity: self.fidelity, errors: self.errors, reference: true }
+    }
+}
+
+impl Case {
     /// Case `index` of the scene, to be run after others: of a device that one of them has, the
     /// calibration is that one's.
     ///
     /// # Errors
-    /// A case that the profile cannot serve.
-    pub fn new(scene: &'a Scene, index: usize, profile: &Profile, others: &[Case]) -> Result<Self> {
+    /// A number that the scene has no case of, a case that the profile cannot serve.
+    pub fn new(
+        scene: &Arc<Scene>,
+        index: usize,
+        profile: &Profile,
+        others: &[Case],
+    ) -> Result<Self> {
+        ensure!(
+            index < scene.cases.len(),
+            "{}: case: expected below {}, got {index}",
+            scene.name,
+            scene.cases.len()
+        );
         let device = &scene.cases[index].device;
         let signs = signs_by_place(&device.terminals_mm, [device.width_mm, device.height_mm]);
         let control = scene.cases[index].control.as_ref();
@@ -143,10 +179,10 @@ impl<'a> Case<'a> {
         });
         Ok(Case {
             calibrated: same.next().map(|same| same.calibrated.clone()).unwrap_or_default(),
-            tuned: OnceLock::new(),
+            tuned: Arc::default(),
             number: others.len(),
             slots,
-            scene,
+            scene: scene.clone(),
             index,
             profile,
             device,
@@ -194,7 +230,7 @@ impl<'a> Case<'a> {
     /// # Errors
     /// As [`Case::new`].
     pub fn plant(&self) -> Result<Plant> {
-        Ok(Plant::new(self.scene, self.index, &timing(&self.profile))?)
+        Ok(Plant::new(&self.scene, self.index, &timing(&self.profile))?)
     }
 
     /// Checks that a core at this fidelity can be given what the scene's carrier offers.
@@ -229,58 +265,72 @@ impl<'a> Case<'a> {
         recorder: Option<&mut (dyn Recorder + Send)>,
         progress: &(dyn Fn() + Sync),
     ) -> Result<Outcome> {
-        let at = (self.number, self.clock);
+        if self.plan().is_some() {
+            return self.close(settings, recorder, progress);
+        }
+        let options = settings.options();
         let plant = self.plant()?;
-        let sheets = plant.nominal_sheet().zip(plant.nominal_sheet());
-        let tuning = self.tuning(&plant)?;
-        let fidelity = (settings.fidelity, tuning.as_ref());
-        let directions = [0, 1].map(|_| Directions::of(&plant));
-        let session = || {
-            let device = (&**self.device, self.calibration()?);
-            let session = Session::new(&self.profile, device, fidelity, settings.errors, at)?;
-            let canceller = |sheet| CrosstalkCanceller::calibrated(sheet, &self.device);
-            let cancellers = sheets.map(|sheets| <[_; 2]>::from(sheets).map(canceller));
-            anyhow::Ok(session.with_cancellers(cancellers).with_directions(directions))
-        };
-        let whole = settings.fidelity == Fidelity::Clock || recorder.is_some();
-        let sampled = self.scene.cases[self.index].sampled();
-        let maker = |plant: Plant| Maker::new(plant.metered(), &self.profile, sampled, whole);
-        let outcome = if tuning.is_some() {
-            self.close(session()?, maker(plant), recorder, progress)?
-        } else {
-            let another = || maker(self.plant().expect("as the first"));
-            let (plant, size) = (plant.metered(), (self.slots, self.kept(whole)));
-            let (outcome, effects) = prefetch(plant, size, another, |slots| {
-                consume(session()?, slots, recorder, progress)
-            });
-            Outcome { effects, ..outcome? }
-        };
-        self.check_finite(&outcome.rows)?;
+        let of_plant = OfPlant::new(&plant);
+        let whole = options.is_whole() || recorder.is_some();
+        let another = || self.maker(self.plant().expect("as the first").metered(), whole);
+        let (plant, size) = (plant.metered(), (self.slots, self.kept(whole)));
+        let (outcome, effects) = prefetch(plant, size, another, |slots| {
+            // In here, so that the device is calibrated while workers generate slots.
+            consume(self.session(of_plant, None, options)?, slots, recorder, progress)
+        });
+        let outcome = Outcome { effects, ..outcome? };
+        outcome.rows.iter().try_for_each(|row| self.check_finite(row))?;
         Ok(outcome)
     }
 
     /// Refuses results that are no numbers: a plant whose parameters lead to them is none.
-    fn check_finite(&self, rows: &[Row]) -> Result<()> {
-        let wrong = |row: &Row| {
-            let of = row.truth?;
-            let own =
-                [("load_g", of.load_g), ("friction_n", of.friction_n), ("hand_x_n", of.hand_x_n)];
-            let named =
-                QUANTITIES.iter().map(|quantity| (quantity.name, (quantity.get)(&of.quantities)));
-            let (name, value) = named.chain(own).find(|(_, value)| !value.is_finite())?;
-            Some((row.time_s, row.pad, name, value))
+    pub(crate) fn check_finite(&self, row: &Row) -> Result<()> {
+        let Some(of) = row.truth else { return Ok(()) };
+        let own = [
+            ("load_g", of.load_g),
+            ("friction_n", of.friction_n),
+            ("hand_x_n", of.hand_x_n),
+            ("hand_y_n", of.hand_y_n),
+        ];
+        let named =
+            QUANTITIES.iter().map(|quantity| (quantity.name, (quantity.get)(&of.quantities)));
+        let Some((name, value)) = named.chain(own).find(|(_, value)| !value.is_finite()) else {
+            return Ok(());
         };
-        let Some((time_s, pad, name, value)) = rows.iter().find_map(wrong) else { return Ok(()) };
         bail!(
-            "{}: case \"{}\": expected a finite true_{name} of pad {pad}, got {value} at {time_s} s; a key of the scene is \
+            "{}: case \"{}\": expected a finite true_{name} of pad {}, got {value} at {} s; a key of the scene is \
              too large or too small",
             self.scene.file,
-            self.name()
+            self.name(),
+            row.pad,
+            row.time_s
         );
     }
-}
 
-impl Case<'_> {
+    /// The core of the case, before its first slot.
+    pub(crate) fn session(
+        &self,
+        OfPlant { sheets, directions }: OfPlant,
+        tuning: Option<&Tuning>,
+        options: Options,
+    ) -> Result<Session> {
+        let session = Session::new(
+            &self.profile,
+            (&**self.device, self.calibration()?),
+            (options, tuning),
+            (self.number, self.clock),
+        )?;
+        let canceller = |sheet| CrosstalkCanceller::calibrated(sheet, &self.device);
+        let cancellers = sheets.map(|sheets| sheets.map(canceller));
+        Ok(session.with_cancellers(cancellers).with_directions(directions))
+    }
+
+    /// What makes the slots of a plant; `whole` with the samples of the blanking.
+    pub(crate) fn maker(&self, plant: Plant, whole: bool) -> Maker {
+        let sampled = self.scene.cases[self.index].sampled();
+        Maker::new(plant, &self.profile, sampled, whole)
+    }
+
     /// Slots kept at most that are generated ahead: sixteen at least. They are whole, or their windows.
     fn kept(&self, whole: bool) -> usize {
         let slot = &self.profile.slot;
@@ -349,7 +399,7 @@ fn force_table(bench: Option<&Bench>, force_k: f64, others: &[Case]) -> Result<F
 }
 
 /// A force loop: the plant of a slot waits for the drives that follow from the slots before.
-impl Case<'_> {
+impl Case {
     /// The controller's tuning, where the scene has one.
     ///
     /// # Errors
@@ -405,18 +455,16 @@ impl Case<'_> {
         LoopPlant::new(maker, &self.profile, (self.clock, full_scale_v), wall)
     }
 
-    /// Adds to the flags of frames what keeps the drives from their targets.
-    fn mark_states(&self, rows: &mut [Row]) -> Result<()> {
-        let plant = self.plant()?;
-        let tuning = self.tuning(&plant)?;
+    /// What keeps the drives from their targets, where the case has a controller.
+    pub(crate) fn limits(&self, plant: &Plant) -> Result<Option<Limits>> {
+        let tuning = self.tuning(plant)?;
         let (Some(plan), Some(control), Some(tuning)) =
-            (self.plan(), &self.profile.control, &tuning)
+            (self.plan(), &self.profile.control, tuning)
         else {
-            return Ok(());
+            return Ok(None);
         };
         let of_pads = (plant.parts(), self.clock.seconds(plant.served()));
-        Limits::new((plan, control), tuning, of_pads).mark(rows, plant.served());
-        Ok(())
+        Ok(Some(Limits::new((plan.clone(), control), tuning, of_pads, plant.served())))
     }
 
     /// From a slot's end to the drive that follows from it, s.
@@ -434,46 +482,27 @@ impl Case<'_> {
 
     fn close(
         &self,
-        mut session: Session,
-        maker: Maker,
+        settings: &Settings,
         mut recorder: Option<&mut (dyn Recorder + Send)>,
         progress: &(dyn Fn() + Sync),
     ) -> Result<Outcome> {
-        let mut plant = self.loop_plant(maker)?;
+        let options = settings.options();
+        let whole = options.is_whole() || recorder.is_some();
+        let mut stepper =
+            Stepper::with_plant(self.clone(), self.plant()?.metered(), options, whole)?;
         let (mut rows, mut peak) = (Vec::new(), 0f64);
-        // Drives are prompt; the row of a short slot comes while the next window is taken.
-        let mut drives = VecDeque::new();
-        for number in 0..self.slots {
+        for _ in 0..self.slots {
             interrupt::check()?;
-            let made = plant.slot(number);
-            session.set_target(made.slot.pad, made.target_n);
-            if let Some(surface) = made.surface {
-                session.set_surface(made.slot.pad, surface);
+            rows.extend(stepper.step()?);
+            if let Some((recorder, slot)) = recorder.as_mut().zip(stepper.last()) {
+                recorder.slot(slot.pad, slot.whole())?;
             }
-            if let Some(recorder) = recorder.as_mut() {
-                recorder.slot(made.slot.pad, made.slot.whole())?;
-            }
-            peak = peak.max(made.peak);
-            let row = session.slot(&made.slot, Some(record_truth(&made.truth)));
-            drives.push_back(plant.drive(&made, session.take_drive())?);
-            let core_n = session.core_force_n();
-            let mut driven =
-                |row: Row| Row { driven: with_core(drives.pop_front().flatten(), core_n), ..row };
-            rows.extend(row.map(&mut driven));
+            peak = peak.max(stepper.peak());
             progress();
         }
-        let last = session.finish();
-        let core_n = session.core_force_n();
-        let driven =
-            |row: Row| Row { driven: with_core(drives.pop_front().flatten(), core_n), ..row };
-        rows.extend(last.map(driven));
-        self.mark_states(&mut rows)?;
-        Ok(Outcome { rows, effects: plant.effects(), peak, errors: session.errors() })
+        rows.extend(stepper.finish()?);
+        Ok(Outcome { rows, effects: stepper.effects(), peak, errors: stepper.errors() })
     }
-}
-
-fn with_core(driven: Option<Driven>, core_n: Option<f64>) -> Option<Driven> {
-    driven.map(|driven| Driven { core_n, ..driven })
 }
 
 /// Runs the core on slots of the plant.
@@ -490,10 +519,10 @@ fn consume(
             recorder.slot(slot.pad, slot.whole())?;
         }
         outcome.peak = outcome.peak.max(peak);
-        outcome.rows.extend(session.slot(&slot, Some(record_truth(&truth))));
+        outcome.rows.extend(session.slot(&slot, Some(record_truth(&truth)))?);
         progress();
     }
-    outcome.rows.extend(session.finish());
+    outcome.rows.extend(session.finish()?);
     outcome.errors = session.errors();
     Ok(outcome)
 }
@@ -507,6 +536,7 @@ pub fn record_truth(truth: &Truth) -> record::Truth {
         friction_n: truth.friction_n,
         haptic_friction_n: truth.haptic_friction_n,
         hand_x_n: truth.hand_n[0],
+        hand_y_n: truth.hand_n[1],
         part: truth.part,
         set: truth.set,
         point: truth.point,

@@ -12,6 +12,7 @@
 //! | [`maker`] | what a plant gives the core of its slots |
 //! | `prefetch` | slots generated on other threads, while the core works on those before |
 //! | [`case`] | a case of a scene, run |
+//! | [`stepper`] | the same slot by slot, with inputs while it runs |
 //! | [`control`] | the force loop of a scene: controller, tuning, and what closes it |
 //! | [`criteria`] | what a scene claims, measured |
 //! | [`errors`] | rounding errors of every signal |
@@ -45,5 +46,6 @@ pub mod provenance;
 pub mod record;
 pub mod session;
 pub mod silent;
+pub mod stepper;
 pub mod tuning_file;
 pub mod wiring;

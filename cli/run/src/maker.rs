@@ -16,6 +16,8 @@ pub struct Maker {
     samples: usize,
     whole: bool,
     fractions: Vec<f64>,
+    /// Codes of an earlier slot, whose memory the next one's take.
+    spare: Vec<i32>,
 }
 
 impl Maker {
@@ -24,7 +26,16 @@ impl Maker {
         let (blanking, samples) =
             (profile.slot.blanking() as usize, profile.slot.samples() as usize);
         let digitiser = Digitiser::new(profile.formats.adc);
-        Maker { plant, digitiser, sampled, blanking, samples, whole, fractions: Vec::new() }
+        Maker {
+            plant,
+            digitiser,
+            sampled,
+            blanking,
+            samples,
+            whole,
+            fractions: Vec::new(),
+            spare: Vec::new(),
+        }
     }
 
     /// What the core receives of a slot, and the largest sample.
@@ -54,9 +65,21 @@ impl Maker {
         }
         self.plant.samples_of(slot, self.blanking..self.samples, window);
         let blanking = blanking.len();
-        let mut codes = Vec::new();
+        let mut codes = std::mem::take(&mut self.spare);
         let peak = self.digitiser.codes(&self.fractions, &mut codes);
         (Signals::Samples { codes, blanking }, peak)
+    }
+
+    /// Takes back the signals of a slot that are needed no longer.
+    pub(crate) fn reuse(&mut self, signals: Signals) {
+        if let Signals::Samples { codes, .. } = signals {
+            self.spare = codes;
+        }
+    }
+
+    /// The same, to be asked what its evaluations do not change.
+    pub(crate) fn device(&self) -> &Plant {
+        &self.plant
     }
 
     /// Simulated device of the case.

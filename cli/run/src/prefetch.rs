@@ -104,6 +104,7 @@ fn evaluate_next(
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
     use std::sync::atomic::{AtomicUsize, Ordering};
 
     use anyhow::bail;
@@ -121,7 +122,7 @@ mod tests {
     fn with_hockey(carrier: &str, run: impl Fn(&Case)) {
         let set = [("duration_s", "0.5"), ("carrier.rung", carrier)];
         let set = set.map(|(key, value)| (key.to_string(), value.to_string()));
-        let scene = inputs::scene("hockey", &set).expect("a scene");
+        let scene = Arc::new(inputs::scene("hockey", &set).expect("a scene"));
         let profile = inputs::profile(&scene.profile).expect("bundled");
         run(&Case::new(&scene, 0, &profile, &[]).expect("a case"));
     }
@@ -143,8 +144,7 @@ mod tests {
         let mut session = Session::new(
             &case.profile,
             (&case.device, calibration),
-            (Fidelity::Fixed, None),
-            false,
+            (FIXED.options(), None),
             (case.number, case.clock),
         )
         .expect("a session");
@@ -156,7 +156,7 @@ mod tests {
             let (truth, (signals, peak)) = (maker.plant().truth(number), maker.signals(number));
             largest = largest.max(peak);
             let slot = Slot { pad: truth.pad, signals };
-            session.slot(&slot, Some(record_truth(&truth)))
+            session.slot(&slot, Some(record_truth(&truth))).expect("a slot of the case")
         });
         let rows = format!("{:?}", rows.collect::<Vec<_>>());
         (rows, evaluations(&maker.plant().effects()), largest)

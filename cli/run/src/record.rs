@@ -122,6 +122,9 @@ pub struct Truth {
     pub haptic_friction_n: f64,
     /// Force of the hand on the pad along x, where there is one.
     pub hand_x_n: f64,
+    /// The same along y.
+    #[serde(skip)]
+    pub hand_y_n: f64,
     /// The part of a split pad that the slot serves.
     pub part: usize,
     /// What the scene sets the pad to.

@@ -5,7 +5,7 @@
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-use anyhow::Result;
+use anyhow::{Result, ensure};
 use hapticore_contract::calibration::Calibration;
 use hapticore_contract::control::{Drive, Surface, Tuning};
 use hapticore_contract::frame::Measurement;
@@ -15,14 +15,15 @@ use hapticore_reference::Reference as FloatCore;
 
 use crate::control::closed;
 use crate::direction::Directions;
-use crate::engine::{Engine, Fidelity, Slot, engine};
+use crate::engine::{Engine, Fidelity, Signals, Slot, engine};
 use crate::errors::Errors;
-use crate::record::{Reference, Row, SignalError, Truth};
+use crate::record::{Quantities, Reference, Row, SignalError, Truth};
+use crate::stepper::Options;
 
 /// A core at work on one stream of slots.
 pub struct Session {
     engine: Box<dyn Engine>,
-    reference: FloatCore,
+    reference: Option<FloatCore>,
     errors: Option<Errors>,
     /// Of the core and of the reference.
     readouts: [Readout; 2],
@@ -36,6 +37,13 @@ pub struct Session {
     /// The force of the last row as the core measured it, N, where the host takes crosstalk out.
     core_n: Option<f64>,
     cancels: bool,
+    pads: usize,
+    /// Codes of a slot's window, and of the whole slot.
+    lengths: [usize; 2],
+    channels: usize,
+    /// The core takes the samples of the blanking, too.
+    takes_whole: bool,
+    takes_phasors: bool,
 }
 
 impl Session {
@@ -48,17 +56,17 @@ impl Session {
     pub fn new(
         profile: &Arc<Profile>,
         (device, calibration): (&DeviceCalibration, &Calibration),
-        (fidelity, tuning): (Fidelity, Option<&Tuning>),
-        errors: bool,
+        (options, tuning): (Options, Option<&Tuning>),
         (case, clock): (usize, SlotClock),
     ) -> Result<Self> {
+        let Options { fidelity, errors, reference } = options;
         let engine = match tuning {
             Some(tuning) => closed::engine(fidelity, profile, calibration, tuning)?,
             None => engine(fidelity, profile, calibration),
         };
         Ok(Session {
             engine,
-            reference: FloatCore::new(profile, calibration),
+            reference: reference.then(|| FloatCore::new(profile, calibration)),
             errors: errors.then(|| Errors::new(profile, calibration)),
             readouts: [0, 1].map(|_| Readout::new(profile, device)),
             directions: [None, None],
@@ -68,6 +76,12 @@ impl Session {
             waiting: VecDeque::new(),
             core_n: None,
             cancels: false,
+            pads: profile.pads as usize,
+            lengths: [profile.slot.integrate as usize, profile.slot.samples() as usize]
+                .map(|samples| samples * profile.channels()),
+            channels: profile.channels(),
+            takes_whole: fidelity == Fidelity::Clock && tuning.is_none(),
+            takes_phasors: fidelity != Fidelity::Clock,
         })
     }
 
@@ -89,34 +103,73 @@ impl Session {
     }
 
     /// Takes a slot and what is known of it; the row that is finished, if one is.
-    pub fn slot(&mut self, slot: &Slot, truth: Option<Truth>) -> Option<Row> {
+    ///
+    /// # Errors
+    /// A slot that the core cannot take: of a pad that the profile does not serve, with other than one
+    /// code per channel and sample, with phasors at fidelity `clock`. The core stays as it was.
+    pub fn slot(&mut self, slot: &Slot, truth: Option<Truth>) -> Result<Option<Row>> {
+        self.check(slot)?;
         if let Some(errors) = &mut self.errors {
             errors.slot(slot);
         }
         let reference = self.refer(slot);
+        let measured = reference.map_or(Quantities::default(), |reference| reference.quantities);
         self.waiting.push_back(Row {
             case: self.case,
             time_s: self.clock.tick(),
             pad: slot.pad,
-            measured: reference.quantities,
+            measured,
             flags: String::new(),
             laws: None,
             truth,
             driven: None,
-            reference: Some(reference),
+            reference,
         });
-        let measurement = self.engine.slot(slot)?;
+        let Some(measurement) = self.engine.slot(slot) else { return Ok(None) };
         self.finished(&measurement)
     }
 
+    fn check(&self, slot: &Slot) -> Result<()> {
+        self.check_pad(slot.pad)?;
+        let [window, whole] = self.lengths;
+        let (got, expected) = match &slot.signals {
+            Signals::Samples { codes, .. } if self.takes_whole => (codes.len(), whole),
+            Signals::Samples { codes, blanking } => (codes.len().saturating_sub(*blanking), window),
+            Signals::Phasors { amplitudes, .. } => {
+                ensure!(
+                    self.takes_phasors,
+                    "slot: expected samples at fidelity clock, got phasors"
+                );
+                (amplitudes.len(), self.channels - 1)
+            }
+        };
+        ensure!(got == expected, "slot: expected {expected} numbers, got {got}");
+        Ok(())
+    }
+
+    fn check_pad(&self, pad: usize) -> Result<()> {
+        ensure!(pad < self.pads, "pad: expected below {}, got {pad}", self.pads);
+        Ok(())
+    }
+
     /// Sets the target force of a pad, N, from its next slot on.
-    pub fn set_target(&mut self, pad: usize, newtons: f64) {
+    ///
+    /// # Errors
+    /// A pad that the profile does not serve.
+    pub fn set_target(&mut self, pad: usize, newtons: f64) -> Result<()> {
+        self.check_pad(pad)?;
         self.engine.set_target(pad, newtons);
+        Ok(())
     }
 
     /// Sets where the wall that is known by this number begins, from the pad's next slot on.
-    pub fn set_surface(&mut self, pad: usize, surface: Surface) {
+    ///
+    /// # Errors
+    /// As [`Session::set_target`].
+    pub fn set_surface(&mut self, pad: usize, surface: Surface) -> Result<()> {
+        self.check_pad(pad)?;
         self.engine.set_surface(pad, surface);
+        Ok(())
     }
 
     /// The drive of the last slot's pad, where there is a controller.
@@ -130,8 +183,11 @@ impl Session {
     }
 
     /// The last row, where it is still to come.
-    pub fn finish(&mut self) -> Option<Row> {
-        let measurement = self.engine.finish()?;
+    ///
+    /// # Errors
+    /// Slots that were not of the pads in turn, as a core at fidelity `clock` takes them.
+    pub fn finish(&mut self) -> Result<Option<Row>> {
+        let Some(measurement) = self.engine.finish() else { return Ok(None) };
         self.finished(&measurement)
     }
 
@@ -140,15 +196,16 @@ impl Session {
         self.errors.as_ref().map(Errors::largest).unwrap_or_default()
     }
 
-    fn refer(&mut self, slot: &Slot) -> Reference {
-        let measurement = slot.refer(&mut self.reference);
-        let capacitance_pf = self.reference.capacitance_eq6();
+    fn refer(&mut self, slot: &Slot) -> Option<Reference> {
+        let reference = self.reference.as_mut()?;
+        let measurement = slot.refer(reference);
+        let capacitance_pf = reference.capacitance_eq6();
         let ratio = capacitance_pf / measurement.capacitance_pf;
         let (mut quantities, _) = self.readouts[1].convert(&measurement);
         if let Some(directions) = &mut self.directions[1] {
             directions.complete(measurement.pad, &mut quantities);
         }
-        Reference {
+        Some(Reference {
             quantities,
             capacitance_eq6_pf: capacitance_pf,
             force_eq6_n: if measurement.capacitance_pf > 0.0 {
@@ -156,18 +213,23 @@ impl Session {
             } else {
                 0.0
             },
-        }
+        })
     }
 
-    fn finished(&mut self, measurement: &Measurement) -> Option<Row> {
-        let row = self.waiting.pop_front()?;
-        assert_eq!(row.pad, measurement.pad, "measurements come in the order of their slots");
+    fn finished(&mut self, measurement: &Measurement) -> Result<Option<Row>> {
+        let Some(row) = self.waiting.pop_front() else { return Ok(None) };
+        ensure!(
+            row.pad == measurement.pad,
+            "slot: expected the pads in turn, as a core at fidelity clock takes them: pad {}, got {}",
+            measurement.pad,
+            row.pad
+        );
         self.core_n = self.cancels.then_some(measurement.force_n);
         let (mut measured, flags) = self.readouts[0].convert(measurement);
         if let Some(directions) = &mut self.directions[0] {
             directions.complete(measurement.pad, &mut measured);
         }
         let laws = self.laws.as_mut().map(|laws| laws.forces(measurement));
-        Some(Row { measured, flags, laws, ..row })
+        Ok(Some(Row { measured, flags, laws, ..row }))
     }
 }

@@ -2,6 +2,8 @@
 //! The force table beside eq. 8: calibrated on one set of readings, judged on others, on the model
 //! device and on random ones.
 
+use std::sync::Arc;
+
 use hapticore_contract::profile::ForceLaw;
 use hapticore_host::device::Force;
 use hapticore_run::calibrate::bench::Bench;
@@ -144,7 +146,7 @@ fn friction_that_has_changed_is_one_gain() {
 /// A scene's first case with the core's words: the largest error of its force, and what the words
 /// add to floating point, mN.
 fn run(name: &str, law: ForceLaw) -> [f64; 2] {
-    let scene = inputs::scene(name, &[]).unwrap();
+    let scene = Arc::new(inputs::scene(name, &[]).unwrap());
     let mut profile = inputs::profile("standard").unwrap();
     profile.force.law = law;
     let profile = inputs::windowed(profile, &scene).unwrap();

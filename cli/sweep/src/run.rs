@@ -187,7 +187,7 @@ impl<'a> Runner<'a> {
             scene = Scene::parse(&self.plan.scene.text, &self.plan.scene.file, &all)?;
         }
         let timing = Timing { signs: None, ..inputs::timing(profile) };
-        let scene = scene.within_budget(&timing)?;
+        let scene = Arc::new(scene.within_budget(&timing)?);
         let sampled = scene.cases[index].sampled();
         // Beside the seed, which every point sets.
         let of_levels = |profile: &Profile| match set.len() > 1 {
@@ -195,9 +195,8 @@ impl<'a> Runner<'a> {
             false => Ok(Vec::new()),
         };
         if is_loop(&scene.cases[index]) {
-            let of = (&Arc::new(scene.clone()), index);
             let slots = LOOP_SLOTS * self.plan.slots;
-            let bench = LoopBench::new(of, &self.plan.profile, profile, slots)?;
+            let bench = LoopBench::new((&scene, index), &self.plan.profile, profile, slots)?;
             return Ok(Ground {
                 levels: of_levels(&*bench.served(profile)?)?,
                 tried: Tried::Loop(bench),

@@ -18,6 +18,7 @@ use hapticore_tradeoff::points::{Signals, Values, Which, unrounded};
 use idsp::{Lockin, Lowpass, Lowpass2, LowpassState};
 use std::f64::consts::{SQRT_2, TAU};
 use std::num::Wrapping;
+use std::sync::Arc;
 use std::time::Instant;
 
 const SCENES: [&str; 3] = ["fig3", "fig6", "hockey"];
@@ -40,7 +41,7 @@ fn main() -> Result<()> {
 
 fn compare(name: &str, profile: &Profile) -> Result<()> {
     let scene = inputs::scene(name, &[])?;
-    let scene = inputs::scene(name, &unrounded(&scene.cases[0])?)?;
+    let scene = Arc::new(inputs::scene(name, &unrounded(&scene.cases[0])?)?);
     let bench = Bench::new((&scene, 0), profile, Which::Every(SLOTS), true)?;
     let served = bench.serve(profile)?;
     let calibration = bench.calibration();

@@ -30,7 +30,7 @@ impl Bench {
     /// # Errors
     /// A case that cannot be run, as [`slots`].
     pub fn new(
-        (scene, index): (&Scene, usize),
+        (scene, index): (&Arc<Scene>, usize),
         profile: &Profile,
         which: Which,
         sampled: bool,

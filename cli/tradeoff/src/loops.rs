@@ -184,7 +184,7 @@ impl LoopBench {
         Ok(self.case(profile)?.profile)
     }
 
-    fn case(&self, profile: &Profile) -> Result<Case<'_>> {
+    fn case(&self, profile: &Profile) -> Result<Case> {
         let profile = inputs::windowed(profile.clone(), &self.scene)?;
         let mut case = Case::new(&self.scene, self.index, &profile, &[])
             .with_context(|| format!("{}: profile {}", self.scene.name, profile.name))?;

@@ -52,7 +52,7 @@ pub struct Point {
 
 /// What profiles are tried on.
 pub struct Trial {
-    scenes: Vec<Scene>,
+    scenes: Vec<Arc<Scene>>,
     /// Scenes whose slots depend on the core.
     loops: Vec<Arc<Scene>>,
     profile: Profile,
@@ -81,9 +81,10 @@ impl Trial {
     pub fn new(scenes: Vec<Scene>, profile: Profile, slots: usize) -> Self {
         let tried = scenes.iter().map(|scene| &scene.cases[case_of(scene)]);
         let profile = controlled(profile, tried);
-        let (loops, scenes): (Vec<_>, _) =
-            scenes.into_iter().partition(|scene| is_loop(&scene.cases[case_of(scene)]));
-        let loops = loops.into_iter().map(Arc::new).collect();
+        let (loops, scenes): (Vec<_>, _) = scenes
+            .into_iter()
+            .map(Arc::new)
+            .partition(|scene| is_loop(&scene.cases[case_of(scene)]));
         let (benches, judges, loop_benches) = Default::default();
         Trial { scenes, loops, profile, slots, benches, judges, loop_benches }
     }

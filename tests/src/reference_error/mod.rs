@@ -9,6 +9,8 @@
 
 mod bound;
 
+use std::sync::Arc;
+
 use bound::bounds;
 use hapticore_contract::calibration::Calibration;
 use hapticore_contract::frame::Measurement;
@@ -167,7 +169,7 @@ pub fn measure(scene: &str, slots: usize) -> Measured {
     let profile = inputs::profile(&scene.profile).expect("a bundled profile");
     let profile = inputs::windowed(profile, &scene).expect("a window");
     let timing = Timing { signs: None, ..inputs::timing(&profile) };
-    let scene = scene.within_budget(&timing).expect("levels within the budget");
+    let scene = Arc::new(scene.within_budget(&timing).expect("levels within the budget"));
     let mut measured = Measured::default();
     let cases = scene.cases.len();
     let of_each = slots.div_ceil(cases);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The plant of scene `fig9` in a loop with a law.
 
+use std::sync::Arc;
+
 use hapticore_contract::calibration::Calibration;
 use hapticore_contract::control::{Control, Tuning};
 use hapticore_contract::profile::Profile;
@@ -89,7 +91,7 @@ impl Trial {
         let scene = scene((name, gains), target, rail_v);
         let profile = Profile::bundled("standard").expect("bundled");
         let profile = inputs::windowed(profile, &scene).expect("a window");
-        let case = Case::new(&scene, 0, &profile, &[]).expect("a case");
+        let case = Case::new(&Arc::new(scene), 0, &profile, &[]).expect("a case");
         let plant = case.plant().expect("a plant");
         let law: Box<dyn Law> = match kind {
             Kind::Ours(..) => Box::new(ours(&case, &plant)),

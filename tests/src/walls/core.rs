@@ -4,6 +4,7 @@
 //! parts of the pad slot by slot.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use hapticore_contract::profile::Profile;
 use hapticore_reference::wall::Direction;
@@ -54,7 +55,7 @@ impl InCore {
     pub fn run(&self, hand: &Hand, mismatch_percent: f64, seed: u64) -> (Vec<Seen>, f64) {
         let scene = self.scene(hand, mismatch_percent, seed);
         let profile = Profile::bundled(self.profile).expect("bundled");
-        let case = Case::new(&scene, 0, &profile, &[]).expect("a case");
+        let case = Case::new(&Arc::new(scene), 0, &profile, &[]).expect("a case");
         let settings = Settings { fidelity: Fidelity::Fixed, errors: false };
         let outcome = case.run(&settings, None, &|| ()).expect("a run");
         let parts = case.plant().expect("a plant").parts();

@@ -23,6 +23,7 @@ use crate::interrupt;
 use crate::maker::Maker;
 use crate::record::{Bode, BodePoint};
 use crate::session::Session;
+use crate::stepper::Options;
 
 /// Frames that are measured, and the time before them, s.
 const FRAMES: usize = 400;
@@ -163,9 +164,9 @@ fn follow(case: &Case, settings: &Settings, excitation: Excitation) -> Result<Ve
     let plant = case.plant()?;
     let tuning = case.tuning(&plant)?.context("a case with a controller")?;
     let device = (&**case.device, case.calibration()?);
-    let fidelity = (settings.fidelity, Some(&tuning));
+    let options = Options { fidelity: settings.fidelity, errors: false, reference: false };
     let at = (case.number, case.clock);
-    let mut session = Session::new(&case.profile, device, fidelity, false, at)?;
+    let mut session = Session::new(&case.profile, device, (options, Some(&tuning)), at)?;
     let sampled = case.scene.cases[case.index].sampled();
     let maker = Maker::new(plant, &case.profile, sampled, false);
     let mut plant = case.loop_plant(maker)?.with_excitation(excitation);
@@ -175,8 +176,8 @@ fn follow(case: &Case, settings: &Settings, excitation: Excitation) -> Result<Ve
     for number in 0..(rest + FRAMES) * pads {
         interrupt::check()?;
         let made = plant.slot(number);
-        session.set_target(made.slot.pad, made.target_n);
-        session.slot(&made.slot, None);
+        session.set_target(made.slot.pad, made.target_n)?;
+        session.slot(&made.slot, None)?;
         let driven = plant.drive(&made, session.take_drive())?;
         if let Some(driven) = driven.filter(|_| made.slot.pad == 0) {
             let (end_s, force_n) = (made.end_s, made.truth.force_n);

@@ -12,7 +12,7 @@ use hapticore_contract::control::{Drive, Surface};
 use hapticore_contract::profile::{Profile, Wall};
 use hapticore_host::SlotClock;
 use hapticore_model::blocks::force_loop::ForceLoop;
-use hapticore_scene::{EffectCost, Truth, WallPlan};
+use hapticore_scene::{EffectCost, Plant, Truth, WallPlan};
 
 use crate::engine::Slot;
 use crate::maker::Maker;
@@ -52,6 +52,42 @@ pub struct LoopPlant {
     /// How each pad, or all parts of it, is driven.
     driven: Vec<Option<Driven>>,
     excitation: Option<Excitation>,
+    inputs: LoopInputs,
+}
+
+/// What is set while a loop runs, in place of what the scene asks for.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct LoopInputs {
+    /// The force of each pad, N.
+    pub targets_n: Vec<Option<f64>>,
+    /// The walls along x and along y.
+    pub walls: [WallInput; 2],
+}
+
+/// Where a wall begins.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(crate) enum WallInput {
+    /// Where the scene says.
+    #[default]
+    Scene,
+    /// Here, mm from the sheet's centre.
+    At(f64),
+    /// Nowhere: there is no wall.
+    Off,
+}
+
+/// A surface that no pad reaches, mm: words saturate, at places off the sheet.
+const FAR_MM: f64 = 1e4;
+
+impl WallInput {
+    /// The place of a surface that is in the scene at `mm`, and whose inside is right of it or not.
+    fn surface_mm(self, mm: f64, right: bool) -> f64 {
+        match self {
+            WallInput::Scene => mm,
+            WallInput::At(mm) => mm,
+            WallInput::Off => FAR_MM * if right { 1.0 } else { -1.0 },
+        }
+    }
 }
 
 /// A slot, and what its drive should give.
@@ -74,12 +110,27 @@ pub struct LoopSlot {
 /// Where the wall that is known by a number begins, as the core measures it: a pad's place is that of
 /// its last part. Of quadrants the wall along y is known by the third.
 pub fn surface_of(wall: &WallPlan, parts_mm: &[[f64; 2]], pad: usize, time_s: f64) -> Surface {
+    surface_with(wall, parts_mm, (pad, time_s), [WallInput::Scene; 2])
+}
+
+fn surface_with(
+    wall: &WallPlan,
+    parts_mm: &[[f64; 2]],
+    (pad, time_s): (usize, f64),
+    [x, y]: [WallInput; 2],
+) -> Surface {
     let [x_mm, y_mm] = parts_mm.last().copied().unwrap_or_default();
     let along_y =
         wall.along_y.as_ref().filter(|_| pad % parts_mm.len() == Wall::PART_OF_Y as usize);
     match along_y {
-        Some(along_y) => Surface { mm: along_y.surface_mm(time_s) + y_mm, right: along_y.above },
-        None => Surface { mm: wall.surface_mm(time_s) + x_mm, right: wall.right },
+        Some(along_y) => {
+            let mm = y.surface_mm(along_y.surface_mm(time_s), along_y.above) + y_mm;
+            Surface { mm, right: along_y.above }
+        }
+        None => {
+            let mm = x.surface_mm(wall.surface_mm(time_s), wall.right) + x_mm;
+            Surface { mm, right: wall.right }
+        }
     }
 }
 
@@ -110,6 +161,7 @@ impl LoopPlant {
             maker.plant().set_drive(pad, 0.0, 0.0)?;
         }
         let (surfaces, driven) = (vec![None; pads], vec![None; pads]);
+        let targets_n = vec![None; pads / maker.device().parts()];
         Ok(LoopPlant {
             maker,
             clock,
@@ -119,6 +171,7 @@ impl LoopPlant {
             surfaces,
             driven,
             excitation: None,
+            inputs: LoopInputs { targets_n, ..LoopInputs::default() },
         })
     }
 
@@ -130,11 +183,13 @@ impl LoopPlant {
 
     /// A slot; slots are asked for in order, each after the drive of the one before.
     pub fn slot(&mut self, number: usize) -> LoopSlot {
-        let truth = self.maker.plant().truth(number);
+        let mut truth = self.maker.plant().truth(number);
         let end_s = self.clock.seconds(number + 1);
+        let set_n = self.inputs.targets_n[truth.pad / self.maker.device().parts()];
+        truth.set.target_n = set_n.unwrap_or(truth.set.target_n);
         let target_n = match self.excitation.filter(|_| truth.pad == 0) {
             Some(sine) => sine.hold_n + sine.target_n * sine.wave(end_s),
-            None => self.maker.plant().target_n(truth.pad, end_s),
+            None => set_n.unwrap_or_else(|| self.maker.device().target_n(truth.pad, end_s)),
         };
         let surface = self.surface(truth.pad, end_s);
         let (signals, peak) = self.maker.signals(number);
@@ -143,7 +198,9 @@ impl LoopPlant {
     }
 
     fn surface(&mut self, pad: usize, time_s: f64) -> Option<Surface> {
-        let surface = surface_of(self.wall.as_ref()?, self.maker.plant().parts_mm(), pad, time_s);
+        let parts_mm = self.maker.device().parts_mm();
+        let walls = self.inputs.walls;
+        let surface = surface_with(self.wall.as_ref()?, parts_mm, (pad, time_s), walls);
         let before = self.surfaces[pad].replace(surface);
         (before != Some(surface)).then_some(surface)
     }
@@ -171,6 +228,35 @@ impl LoopPlant {
         let target_n = drive.walled.map_or(of.target_n, |walled| walled.target_n);
         let free = drive.walled.map(|walled| walled.free);
         Ok(Driven { target_n, drive_v_rms, limited, fault, free, core_n: None })
+    }
+
+    /// What makes the slots.
+    pub(crate) fn maker(&mut self) -> &mut Maker {
+        &mut self.maker
+    }
+
+    /// The plant, to be asked what its evaluations do not change.
+    pub(crate) fn device(&self) -> &Plant {
+        self.maker.device()
+    }
+
+    /// What is set in place of what the scene asks for, from the next slot on.
+    pub(crate) fn inputs(&mut self) -> &mut LoopInputs {
+        &mut self.inputs
+    }
+
+    /// Where the walls along x and y begin at a time, mm from the sheet's centre; none where there is
+    /// no such wall, or none any more.
+    pub(crate) fn walls_mm(&self, time_s: f64) -> [Option<f64>; 2] {
+        let place = |input: WallInput, scene_mm: Option<f64>| match input {
+            WallInput::Scene => scene_mm,
+            WallInput::At(mm) => scene_mm.and(Some(mm)),
+            WallInput::Off => None,
+        };
+        let Some(wall) = &self.wall else { return [None; 2] };
+        let y_mm = wall.along_y.as_ref().map(|along_y| along_y.surface_mm(time_s));
+        let [x, y] = self.inputs.walls;
+        [place(x, Some(wall.surface_mm(time_s))), place(y, y_mm)]
     }
 
     /// Effects and what they cost.

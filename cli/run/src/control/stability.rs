@@ -215,7 +215,7 @@ impl Stability {
 /// A pad whose loop is closed in floating point, without a core, until it settles. Then its drive
 /// is held, so that the film has the history that it has in the loop.
 pub(super) struct Bench<'a> {
-    case: &'a Case<'a>,
+    case: &'a Case,
     plan: &'a ControlPlan,
     tuning: Tuning,
     force_n: f64,
@@ -237,7 +237,7 @@ enum Rest {
 
 impl<'a> Bench<'a> {
     /// That of a case whose loop is closed; none of pads that are served part by part.
-    fn of(case: &'a Case<'a>, force_n: f64) -> Result<Option<Self>> {
+    fn of(case: &'a Case, force_n: f64) -> Result<Option<Self>> {
         let closes = |plan: &&ControlPlan| plan.law != ControlLaw::Open && case.device.parts == 1;
         let Some(plan) = case.plan().filter(closes) else { return Ok(None) };
         let tuning = case.tuning(&case.plant()?)?.context("a case with a controller")?;
@@ -250,7 +250,7 @@ impl<'a> Bench<'a> {
     /// # Errors
     /// A profile without a controller.
     pub(super) fn new(
-        case: &'a Case<'a>,
+        case: &'a Case,
         plan: &'a ControlPlan,
         tuning: Tuning,
         force_n: f64,

@@ -32,10 +32,17 @@ const WIDE: f64 = 0.15;
 /// The names of the states, as flags.
 pub const STATES: [&str; 4] = ["at_rail", "at_curve", "at_slew", "swings"];
 
-/// What limits the drives of a case.
-pub struct Limits<'a> {
-    plan: &'a ControlPlan,
-    tuning: &'a Tuning,
+/// What limits the drives of a case, followed from row to row.
+pub struct Limits {
+    drives: Drives,
+    /// Of each part of each pad.
+    watches: Vec<Watch>,
+}
+
+/// The limits themselves.
+struct Drives {
+    plan: ControlPlan,
+    tuning: Tuning,
     root_full_scale: f64,
     /// Slots of each pad, the last of which is that of its drive.
     parts: usize,
@@ -50,34 +57,36 @@ struct Watch {
     forces_n: Vec<f64>,
 }
 
-impl<'a> Limits<'a> {
-    /// Those of a tuning; `frame_s` is the time from a pad's slot to its next.
+impl Limits {
+    /// Those of a tuning, before the first row; `frame_s` is the time from a pad's slot to its next,
+    /// `served` counts the parts of all pads.
     pub fn new(
-        (plan, control): (&'a ControlPlan, &Control),
-        tuning: &'a Tuning,
+        (plan, control): (ControlPlan, &Control),
+        tuning: Tuning,
         (parts, frame_s): (usize, f64),
+        served: usize,
     ) -> Self {
         let held = ((HELD_S / frame_s).ceil() as usize).max(HELD);
-        Limits { plan, tuning, root_full_scale: control.root_full_scale(), parts, held }
+        let root_full_scale = control.root_full_scale();
+        let watches = (0..served).map(|_| Watch::default()).collect();
+        Limits { drives: Drives { plan, tuning, root_full_scale, parts, held }, watches }
     }
 
-    /// Adds to the flags of each frame what keeps its pad from its target.
-    pub fn mark(&self, rows: &mut [Row], pads: usize) {
-        let mut watches: Vec<Watch> = (0..pads).map(|_| Watch::default()).collect();
-        for row in rows {
-            let Some(driven) = row.driven.filter(|_| row.pad % self.parts == self.parts - 1) else {
-                continue;
-            };
-            let states = watches[row.pad].look(self, &driven, row.measured.force_n);
-            for (name, _) in STATES.iter().zip(states).filter(|(_, is_so)| *is_so) {
-                if !row.flags.is_empty() {
-                    row.flags.push('+');
-                }
-                row.flags.push_str(name);
+    /// Adds to the flags of the next frame what keeps its pad from its target.
+    pub fn mark(&mut self, row: &mut Row) {
+        let parts = self.drives.parts;
+        let Some(driven) = row.driven.filter(|_| row.pad % parts == parts - 1) else { return };
+        let states = self.watches[row.pad].look(&self.drives, &driven, row.measured.force_n);
+        for (name, _) in STATES.iter().zip(states).filter(|(_, is_so)| *is_so) {
+            if !row.flags.is_empty() {
+                row.flags.push('+');
             }
+            row.flags.push_str(name);
         }
     }
+}
 
+impl Drives {
     /// The curve's voltage for a target.
     fn curve_v(&self, target_n: f64) -> f64 {
         let (curve, cells) = (&self.tuning.curve, self.tuning.curve.len() - 1);
@@ -90,8 +99,8 @@ impl<'a> Limits<'a> {
 
 impl Watch {
     /// Which states a frame is in.
-    fn look(&mut self, limits: &Limits, driven: &Driven, force_n: f64) -> [bool; 4] {
-        let plan = limits.plan;
+    fn look(&mut self, limits: &Drives, driven: &Driven, force_n: f64) -> [bool; 4] {
+        let plan = &limits.plan;
         let Driven { target_n, drive_v_rms, fault, .. } = *driven;
         let before = self.before.replace(*driven);
         let near = |limit_v: f64| drive_v_rms >= limit_v * (1.0 - NEAR);

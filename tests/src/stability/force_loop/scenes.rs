@@ -2,6 +2,8 @@
 //! The whole loop of a scene at fidelity `fixed`, slot by slot: the core is calibrated and tuned to one
 //! device and drives another, which may be the same.
 
+use std::sync::Arc;
+
 use hapticore_contract::control::Drive;
 use hapticore_model::fidelity::force_loop::FixedLoop;
 use hapticore_run::case::Case;
@@ -21,16 +23,17 @@ pub struct Slot {
 ///
 /// # Panics
 /// Where there is no such scene, or it does not take them.
-pub fn scene(name: &str, set: &[(String, String)]) -> Scene {
+pub fn scene(name: &str, set: &[(String, String)]) -> Arc<Scene> {
     let toml = gallery::find(name).expect("bundled");
-    Scene::parse(toml, &format!("{name}.toml"), set).unwrap_or_else(|error| panic!("{error}"))
+    let scene = Scene::parse(toml, &format!("{name}.toml"), set);
+    Arc::new(scene.unwrap_or_else(|error| panic!("{error}")))
 }
 
 /// A case of a scene, by its name, for a bundled profile.
 ///
 /// # Panics
 /// Where there is no such case or profile.
-pub fn case<'a>(scene: &'a Scene, name: &str, profile: &str) -> Case<'a> {
+pub fn case(scene: &Arc<Scene>, name: &str, profile: &str) -> Case {
     let profile = inputs::profile(profile).expect("bundled");
     let profile = inputs::windowed(profile, scene).expect("a window");
     let index = scene.cases.iter().position(|case| case.name == name).expect("a case");
