@@ -44,6 +44,9 @@ pub enum Command {
     /// Make a device's calibration from what was measured of it: places, loads, full scales
     #[command(after_help = CALIBRATE)]
     Calibrate(CalibrateArgs),
+    /// Show a scene in a browser, in real time: drag pads, press them, move walls
+    #[command(after_help = LIVE)]
+    Live(LiveArgs),
 }
 
 const SIMULATE: &str = "Examples:
@@ -238,6 +241,50 @@ pub struct CalibrateArgs {
     /// Print results as JSON
     #[arg(long)]
     pub json: bool,
+}
+
+const LIVE: &str = "Only this machine reaches the page, unless --listen names another address. docs/live.md describes page and messages.
+
+Examples:
+  hapticore live
+  hapticore live hockey --open
+  hapticore live peg --set wall.surface_mm=0 --speed 0.1 --port 0
+
+Exit status: 0 ended by Ctrl-C, 2 bad input.";
+
+/// Arguments of `live`.
+#[derive(Debug, Clone, clap::Args)]
+pub struct LiveArgs {
+    /// A bundled scene (see `hapticore scenes`) or a TOML file
+    #[arg(default_value = "peg")]
+    pub scene: String,
+    /// Set a key of the scene: sensor.noise_ppm_rms=40, wall.surface_mm=0
+    #[arg(long, value_name = "KEY=VALUE", value_parser = key_value)]
+    pub set: Vec<(String, String)>,
+    /// The case, by its name or its number from 0 [default: the first]
+    #[arg(long, value_name = "CASE")]
+    pub case: Option<String>,
+    /// The core's profile: a bundled name (small, standard, fine, fast) or a TOML file
+    #[arg(long, value_name = "PROFILE")]
+    pub profile: Option<String>,
+    /// How exactly the core is run
+    #[arg(long, value_enum, default_value_t = Core::Fixed)]
+    pub core: Core,
+    /// The port of the page; 0 takes a free one
+    #[arg(long, value_name = "PORT", default_value_t = 8091)]
+    pub port: u16,
+    /// Open the page in a browser
+    #[arg(long)]
+    pub open: bool,
+    /// Device time by wall time: 0.1 is ten times slower, 0 begins paused
+    #[arg(long, value_name = "FACTOR", default_value_t = 1.0)]
+    pub speed: f64,
+    /// Let other machines reach the page at this address of this machine; 0.0.0.0 for all
+    #[arg(long, value_name = "ADDRESS", requires = "token")]
+    pub listen: Option<std::net::IpAddr>,
+    /// What others must have in the page's address, as ?token=TOKEN
+    #[arg(long, value_name = "TOKEN", requires = "listen", value_parser = token)]
+    pub token: Option<String>,
 }
 
 const CODES: &str = "csv: name, address, code, value, format; constants have no address. readmemh: two's complement in hexadecimal, a word a
@@ -471,6 +518,17 @@ fn key_value(text: &str) -> Result<(String, String), String> {
     split
         .filter(|(key, _): &(String, String)| !key.is_empty())
         .ok_or_else(|| "expected KEY=VALUE".into())
+}
+
+/// The fewest characters of a token: more than anybody tries.
+const TOKEN: usize = 16;
+
+fn token(text: &str) -> Result<String, String> {
+    let is_plain = text.chars().all(|c| c.is_ascii_alphanumeric() || "-_".contains(c));
+    match is_plain && text.len() >= TOKEN {
+        true => Ok(text.into()),
+        false => Err(format!("expected at least {TOKEN} letters, digits, - and _")),
+    }
 }
 
 fn above_zero(text: &str) -> Result<f64, String> {

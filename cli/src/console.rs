@@ -39,6 +39,14 @@ pub fn warn(text: &str) {
     complain(format_args!("warning: {text}"));
 }
 
+/// Sends on what has been printed: a program that waits for it may be reading.
+pub fn flush() {
+    let mut failed = FAILED.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+    if failed.is_none() {
+        *failed = io::stdout().flush().err();
+    }
+}
+
 /// Ends standard output.
 ///
 /// # Errors

@@ -1,0 +1,476 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Protocol 1: the messages between server and clients, JSON text over one WebSocket at `/ws`.
+//!
+//! Every number has its unit in its name, as in files. Unknown fields are ignored, an unknown type is answered with
+//! `error`. [`VERSION`] rises only where a meaning changes.
+//!
+//! | from a client | does |
+//! | --- | --- |
+//! | `{"type":"lead","pad":0,"mm":[3.2,150]}` | the finger (the pad itself without a hand) moves on a line and arrives after `within_s`, default 0.012 |
+//! | `{"type":"release","pad":0}` | the finger follows the scene again |
+//! | `{"type":"set","pad":0,"load_g":60}` | sets one input of `hello.inputs`, without its `pad.` |
+//! | `{"type":"target","pad":0,"n":0.3}` | force that the controller gives, N |
+//! | `{"type":"wall","x_mm":-1.5,"y_mm":0}` | moves the walls; `"mm"` is `"x_mm"`; `"off":true` takes them away |
+//! | `{"type":"pace","speed":0.1}` | device time by wall time; 0 pauses |
+//! | `{"type":"step","slots":8}` | runs slots now; time stands until the next `pace` or until this client leaves |
+//! | `{"type":"slot"}` | asks for the ADC codes of the last slot |
+//! | `{"type":"record","to":"start"}` | starts the scene anew at 0 s, with an empty log |
+//! | `{"type":"record","to":"scene"}` | asks for all inputs since then as a scene file; `"log"`: as a log of inputs by slot |
+//! | `{"type":"open","scene":"hockey","set":{"sensor.noise_ppm_rms":40},"case":0}` | replaces the scene for all clients, once it is set up |
+//! | `{"type":"subscribe","columns":["time_s","pad","force_n"],"every":"slot","format":"binary"}` | asks for every slot; `"every":"frame"` ends it |
+//!
+//! | from the server | when |
+//! | --- | --- |
+//! | `hello` | first, and after each `open`: all that does not change |
+//! | `frames` | up to 60 times a second: the latest of each pad, as columns |
+//! | `status` | every second |
+//! | `event` | a pad changes its state |
+//! | `done`, `error` | exactly one for each command with an `id`; errors also without |
+//! | `slot`, `recorded` | answers to `slot` and `record`, before `done` |
+//! | `rows`, or binary | slots that were subscribed to |
+//!
+//! A binary message has the header `HPL1`, the numbers of columns and rows (16 bits each), then each column as 64-bit
+//! floats; all little-endian. A value that a scene does not have is `null`, in binary not a number.
+
+mod columns;
+mod request;
+
+use serde::{Deserialize, Serialize, Serializer};
+
+pub use columns::{COLUMNS, Column, PadRow};
+pub use request::{BadRequest, Request};
+
+/// The version of the protocol that a server speaks.
+pub const VERSION: u32 = 1;
+
+/// The longest message of a client that is read, bytes.
+pub const LONGEST: usize = 64 << 10;
+
+/// The most slots of one `step`.
+pub const MOST_SLOTS: usize = 10_000;
+
+/// Device time by wall time: 0, or within these.
+pub const SPEEDS: [f64; 2] = [0.001, 10.0];
+
+/// What a client asks for.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(tag = "type", rename_all = "snake_case")]
+pub enum Command {
+    /// Leads the finger, or a pad without hand.
+    Lead {
+        /// Pad number, from 0.
+        pad: usize,
+        /// Where it goes, mm right of the sheet's centre and above it.
+        mm: [f64; 2],
+        /// After which time it arrives, s; none for [`GLIDE_S`](crate::simulated::GLIDE_S).
+        #[serde(skip_serializing_if = "Option::is_none")]
+        within_s: Option<f64>,
+    },
+    /// Gives the finger back to the scene.
+    Release {
+        /// Pad number, from 0.
+        pad: usize,
+    },
+    /// Sets one input of a pad.
+    Set {
+        /// Pad number, from 0.
+        pad: usize,
+        /// Which one, and its value.
+        #[serde(flatten)]
+        setting: Setting,
+    },
+    /// Sets the force that a controller gives a pad.
+    Target {
+        /// Pad number, from 0.
+        pad: usize,
+        /// Force, N.
+        n: f64,
+    },
+    /// Moves the walls.
+    Wall {
+        /// Surface of the wall along x, mm right of the sheet's centre; none: as it is.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        x_mm: Option<f64>,
+        /// Surface of the wall along y, mm above the sheet's centre; none: as it is.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        y_mm: Option<f64>,
+        /// Takes the walls away.
+        #[serde(skip_serializing_if = "std::ops::Not::not")]
+        off: bool,
+    },
+    /// Sets how fast device time runs.
+    Pace {
+        /// Device time by wall time; 0 pauses.
+        speed: f64,
+    },
+    /// Runs slots, then lets time stand.
+    Step {
+        /// How many, up to [`MOST_SLOTS`].
+        slots: usize,
+    },
+    /// Asks for the ADC codes of the last slot.
+    Slot,
+    /// Records.
+    Record {
+        /// What.
+        to: Recording,
+    },
+    /// Replaces the scene.
+    Open(Opening),
+    /// Asks for every slot.
+    Subscribe(Subscription),
+}
+
+/// An input of a pad, and its value.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Setting {
+    /// Load, g.
+    LoadG(f64),
+    /// Force besides the finger's, along x, N.
+    PushXN(f64),
+    /// Force besides the finger's, along y, N.
+    PushYN(f64),
+    /// Haptic voltage of the source, V rms, where no controller decides it.
+    HapticVRms(f64),
+    /// Force that a controller gives, N.
+    TargetN(f64),
+}
+
+/// What `record` does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Recording {
+    /// Starts the scene anew.
+    Start,
+    /// A scene file.
+    Scene,
+    /// A log of inputs by slot.
+    Log,
+}
+
+/// The scene that a source simulates.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub struct Opening {
+    /// A bundled scene.
+    pub scene: String,
+    /// Keys and values as in `--set KEY=VALUE`.
+    #[serde(skip_serializing_if = "Vec::is_empty", serialize_with = "as_map")]
+    pub set: Vec<(String, String)>,
+    /// Number or name of the case; none for the first.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub case: Option<String>,
+    /// A bundled profile; none for the scene's.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub profile: Option<String>,
+    /// `float`, `fixed` or `clock`; none for the source's.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub core: Option<String>,
+}
+
+/// Keys and values as an object.
+fn as_map<S: Serializer>(set: &[(String, String)], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_map(set.iter().map(|(key, value)| (key, value)))
+}
+
+/// Which columns of every slot a client wants.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Subscription {
+    /// Names among [`crate::rows::names`].
+    pub columns: Vec<String>,
+    /// `slot`, or `frame` for none.
+    pub every: Every,
+    /// How they are sent.
+    #[serde(default)]
+    pub format: Format,
+}
+
+/// How often rows are sent.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Every {
+    /// Each slot, several in one message.
+    Slot,
+    /// None besides `frames`.
+    Frame,
+}
+
+/// How rows are sent.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Format {
+    /// As `rows`.
+    #[default]
+    Json,
+    /// As a binary message.
+    Binary,
+}
+
+/// What a server sends.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(tag = "type", rename_all = "snake_case")]
+pub enum Answer {
+    /// All that does not change.
+    Hello(Box<Hello>),
+    /// The latest frame of each pad.
+    Frames(Frames),
+    /// How the source keeps up.
+    Status(Status),
+    /// A pad changes its state.
+    Event(Event),
+    /// A command was carried out, before this slot.
+    Done {
+        /// The command's.
+        id: u64,
+        /// Number of the next slot.
+        slot: usize,
+    },
+    /// A command was refused and has changed nothing.
+    Error {
+        /// The command's, where it had one.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        id: Option<u64>,
+        /// Cause and cure.
+        message: String,
+    },
+    /// The ADC codes of a slot.
+    Slot(SlotCodes),
+    /// A recording.
+    Recorded(Recorded),
+    /// Slots that were subscribed to.
+    Rows {
+        /// Names of the columns.
+        columns: Vec<String>,
+        /// The values of each slot.
+        rows: Vec<Vec<Option<f64>>>,
+    },
+}
+
+impl Answer {
+    /// The message as text.
+    pub fn text(&self) -> String {
+        serde_json::to_string(self).expect("messages are plain data")
+    }
+}
+
+/// All that does not change of a source.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub struct Hello {
+    /// [`VERSION`].
+    pub protocol: u32,
+    /// Version of the program.
+    pub version: String,
+    /// Commit that it was built from, where that is known.
+    pub commit: Option<String>,
+    /// `scene`; a board and a recording will have words of their own.
+    pub source: &'static str,
+    /// The scene's name.
+    pub scene: String,
+    /// Its title.
+    pub title: String,
+    /// What it is about.
+    pub summary: String,
+    /// The case's name.
+    pub case: String,
+    /// Number of the case, from 0.
+    pub case_index: usize,
+    /// Names of all cases.
+    pub cases: Vec<String>,
+    /// Name of the profile.
+    pub profile: String,
+    /// `float`, `fixed` or `clock`.
+    pub fidelity: String,
+    /// The command that runs the same scene without a page.
+    pub command: String,
+    /// What its user must know before using the results.
+    pub warnings: Vec<String>,
+    /// Length of a slot, µs.
+    pub slot_us: f64,
+    /// Slots of each pad: parts of a split pad, each with a slot of its own.
+    pub parts: usize,
+    /// The pads.
+    pub pads: Vec<Pad>,
+    /// Width and height of the sheet, mm.
+    pub sheet_mm: [f64; 2],
+    /// Diameter of a pad, mm.
+    pub pad_diameter_mm: f64,
+    /// Where the terminals are, mm from the sheet's centre.
+    pub terminals_mm: Vec<[f64; 2]>,
+    /// Columns of `frames.pads` that have a unit.
+    pub columns: Vec<Column>,
+    /// Inputs of each pad.
+    pub inputs: Vec<InputInfo>,
+    /// Keys of the scene that are worth changing: with `open`, in its `set`.
+    pub settings: Vec<SettingInfo>,
+    /// The pads hang on a finger by a spring.
+    pub hand: bool,
+    /// A controller drives the pads.
+    pub controller: bool,
+    /// Walls, along x first.
+    pub walls: Vec<Wall>,
+    /// What the scene allows.
+    pub limits: Limits,
+    /// `frames` have `true_…` columns.
+    pub truth: bool,
+    /// Device time by wall time that is asked for.
+    pub speed: f64,
+    /// Names of the bundled scenes.
+    pub scenes: Vec<&'static str>,
+    /// Scenes with something to try.
+    pub presets: Vec<crate::presets::Preset>,
+}
+
+/// A pad.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Pad {
+    /// Its name.
+    pub name: String,
+    /// Where its parts lie, mm from its centre.
+    pub parts_mm: Vec<[f64; 2]>,
+}
+
+/// An input of each pad.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct InputInfo {
+    /// `pad.` and the key of `set`.
+    pub name: &'static str,
+    /// Its unit.
+    pub unit: &'static str,
+    /// What it is called.
+    pub label: &'static str,
+    /// Least value of a slider.
+    pub least: f64,
+    /// Largest value of a slider.
+    pub most: f64,
+    /// Value of the first pad as the scene begins.
+    pub value: f64,
+    /// `pad`.
+    pub per: &'static str,
+}
+
+/// A key of the scene that is worth changing.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SettingInfo {
+    /// The key, as in `--set`.
+    pub key: &'static str,
+    /// Its unit.
+    pub unit: &'static str,
+    /// What it is called.
+    pub label: &'static str,
+    /// Least value of a slider.
+    pub least: f64,
+    /// Largest value of a slider.
+    pub most: f64,
+    /// Its value in the scene, where the scene gives one.
+    pub value: Option<f64>,
+}
+
+/// A wall.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Wall {
+    /// `x` or `y`: the axis that it lies across.
+    pub axis: &'static str,
+    /// Its surface, mm from the sheet's centre, as the scene begins.
+    pub mm: f64,
+    /// On which side of the surface its inside is: `below` or `above`, in coordinates.
+    pub inside: &'static str,
+}
+
+/// What a scene allows.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub struct Limits {
+    /// Error of a position, mm.
+    pub position_mm: Option<f64>,
+    /// Error of a force, N.
+    pub force_n: Option<f64>,
+    /// The largest drive, V rms.
+    pub rail_v: Option<f64>,
+}
+
+/// The latest frame of each pad.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Frames {
+    /// Number of the next slot.
+    pub slot: usize,
+    /// When it begins, s of device time.
+    pub time_s: f64,
+    /// A row of each pad that has had a frame; sent as columns.
+    #[serde(serialize_with = "columns::as_columns")]
+    pub pads: Vec<PadRow>,
+    /// Amplitudes of the terminals' currents in the last slot, as fractions of full scale.
+    pub terminals: Vec<f64>,
+    /// Amplitudes of the sensing and the haptic voltage there, likewise.
+    pub voltages: Vec<f64>,
+    /// Surfaces of the walls, mm; `null` where a wall is off.
+    pub walls: Vec<Option<f64>>,
+}
+
+/// How the source keeps up.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub struct Status {
+    /// Device time by wall time, as reached in the last second.
+    pub speed: f64,
+    /// As asked for; 0 where time is paused.
+    pub asked_speed: f64,
+    /// A client steps, and time stands.
+    pub stepped: bool,
+    /// How late the loop woke up, ms: median, 99th percentile, largest.
+    pub late_ms: [f64; 3],
+    /// Wall time that was left out since the scene was opened, since it could not be kept up with, s.
+    pub skipped_s: f64,
+    /// Clients.
+    pub clients: usize,
+    /// Messages that this client has missed, since it did not read them in time.
+    pub dropped: u64,
+    /// Inputs since the scene was opened.
+    pub inputs: usize,
+    /// The scene that is being set up.
+    pub opening: Option<String>,
+    /// Why the source has stopped, where it has.
+    pub stopped: Option<String>,
+}
+
+/// A pad changes its state.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Event {
+    /// When, s of device time.
+    pub time_s: f64,
+    /// Pad number, from 0.
+    pub pad: usize,
+    /// The state that it is in now.
+    pub state: crate::state::State,
+    /// What happened, in words.
+    pub what: String,
+}
+
+/// The ADC codes of a slot's window.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SlotCodes {
+    /// Number of the slot.
+    pub slot: usize,
+    /// The pad, or part of one, that it serves, counted over all pads.
+    pub pad: usize,
+    /// Names of the channels.
+    pub channels: Vec<String>,
+    /// The code of full scale.
+    pub full_scale: i32,
+    /// Samples a second.
+    pub sample_rate_hz: f64,
+    /// Codes of each channel; empty where the scene has phasors alone.
+    pub codes: Vec<Vec<i32>>,
+}
+
+/// A recording.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Recorded {
+    /// `scene` or `log`.
+    pub format: Recording,
+    /// A name for its file.
+    pub name: String,
+    /// Simulating it gives the same rows, to the bit.
+    pub exact: bool,
+    /// What of it is not exact, in words; empty where all is.
+    pub note: String,
+    /// The file's text.
+    pub text: String,
+}
