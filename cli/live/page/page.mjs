@@ -196,7 +196,8 @@ function paint(now_ms) {
   loupe.draw();
   strips.draw();
   bars.draw();
-  $('sheet').dataset.slot = model.shown?.slot ?? '';
+  // For tests: what is drawn, and where.
+  Object.assign($('sheet').dataset, { slot: model.shown?.slot ?? '', scale: sheet.scale });
   clearTimeout(textTimer);
   if (now_ms - text_ms >= TEXT_MS) paintText(now_ms);
   else textTimer = setTimeout(() => paintText(performance.now()), TEXT_MS);
