@@ -7,7 +7,7 @@ import { Loupe } from './loupe.mjs';
 import { Model } from './model.mjs';
 import { Bars, drawEvents, element, PadTable, Speech, write } from './panels.mjs';
 import { Leader, leadByPointer, listenToKeys } from './pointer.mjs';
-import { Link, STATES } from './protocol.mjs';
+import { Link, PROTOCOL, STATES } from './protocol.mjs';
 import { Sheet } from './sheet.mjs';
 import { SlotPlot } from './slot.mjs';
 import { Strips } from './strips.mjs';
@@ -83,6 +83,7 @@ function accept(message) {
 }
 
 function acceptHello(hello) {
+  if (hello.protocol !== PROTOCOL) notice(`The source speaks protocol ${hello.protocol}, this page ${PROTOCOL}: load the page again`);
   model.acceptHello(hello);
   if (opened.scene !== hello.scene) opened = { scene: hello.scene, set: {} };
   document.body.className = hello.truth ? '' : 'no-truth';

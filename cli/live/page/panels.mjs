@@ -60,8 +60,8 @@ export class Bars {
 }
 
 /** Columns of the table after name and state: column of a frame, decimals, whether it needs the truth. */
-const COLUMNS = [['x_mm', 2], ['y_mm', 2], ['error_mm', 2, true], ['capacitance_pf', 1], ['haptic_v_rms', 0], ['force_n', 3],
-  ['true_force_n', 3, true], ['hand_n', 3, true], ['age_ms', 1]];
+const COLUMNS = [['force_n', 3], ['true_force_n', 3, true], ['hand_n', 3, true], ['haptic_v_rms', 0], ['capacitance_pf', 1],
+  ['x_mm', 2], ['y_mm', 2], ['error_mm', 2, true], ['age_ms', 1]];
 
 /** The table of pads. */
 export class PadTable {

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // Client of protocol 1: JSON text over one WebSocket. It connects again by itself and matches answers to commands.
 
+/** Version of the protocol that the page speaks. */
+export const PROTOCOL = 1;
+
 /** Words of a pad's state, and what each means. */
 export const STATES = {
   free: 'Nothing brakes the pad but its weight.',

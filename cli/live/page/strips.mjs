@@ -85,7 +85,7 @@ export class Strips {
       cursor: { sync: { key: 'strips' }, y: false, drag: { x: true, y: false, setScale: false },
         bind: { dblclick: () => () => this.unzoom() } },
       scales: { x: { time: false }, y: { range: (plot, low, high) => range(strip, low, high) } },
-      axes: [{ ...axis(), size: last ? AXIS_PIXELS : 0, space: 60, gap: 2, values: (plot, ticks) => ticks.map((tick) => (last ? seconds(tick) : '')) },
+      axes: [{ ...axis(), size: last ? AXIS_PIXELS : 0, space: 60, gap: 2, values: (plot, ticks) => ticks.map((tick) => (last && tick >= 0 ? seconds(tick) : '')) },
         { ...axis(), size: 44, space: 24, gap: 4, values: (plot, ticks) => ticks.map(plain) }],
       series: [{}, ...strip.lines.map(([, colour, , dash], k) =>
         ({ stroke: colours[colour], width: k ? 1.25 : 1.75, dash, points: { show: false } }))],
@@ -105,7 +105,7 @@ export class Strips {
     g.setLineDash([4 * ratio, 4 * ratio]);
     g.strokeRect(left, y, width, 0);
     Object.assign(g, { font: `${11 * ratio}px system-ui`, textAlign: 'left' });
-    g.fillText(`${limit[1]} ${limit[0]} ${unit}`, left + 4 * ratio, y + 12 * ratio);
+    g.fillText(`${limit[1]} ${limit[0]} ${unit}`, left + 4 * ratio, y - top > 14 * ratio ? y - 4 * ratio : y + 12 * ratio);
     g.restore();
   }
 
