@@ -29,7 +29,8 @@ export function readLink(search) {
 export function writeLink(search, wanted) {
   const parameters = new URLSearchParams(search);
   for (const name of [...NAMES, 'set']) parameters.delete(name);
-  for (const name of NAMES) if (wanted[name] != null) parameters.set(name, wanted[name]);
+  const named = { ...wanted, scene: wanted.preset ? null : wanted.scene };
+  for (const name of NAMES) if (named[name] != null) parameters.set(name, named[name]);
   for (const [key, value] of Object.entries(wanted.set)) parameters.append('set', `${key}=${value}`);
   return `?${parameters}`.replaceAll('%3D', '=');
 }
@@ -40,8 +41,7 @@ export class Knobs {
     Object.assign(this, { box, model, send, open, values: new Map(), pending: new Map() });
   }
 
-  /** Makes the knobs of a source whose scene was opened with the settings `set`. */
-  build(set) {
+  build() {
     const { inputs, settings, walls } = this.model.hello;
     this.values.clear();
     const ofPad = inputs.map((input) => {
@@ -51,8 +51,7 @@ export class Knobs {
     const ofWalls = walls.map(({ axis, mm }) => this.knob({
       key: `${axis}_mm`, label: `Wall at ${axis}`, unit: 'mm', least: Math.round(mm) - WALL_MM, most: Math.round(mm) + WALL_MM, value: mm,
       message: (value) => ({ type: 'wall', [`${axis}_mm`]: value }) }));
-    const ofScene = settings.filter(({ value, key }) => value != null || key in set).map((setting) =>
-      this.knob({ ...setting, value: set[setting.key] ?? setting.value, again: true }));
+    const ofScene = settings.map((setting) => this.knob({ ...setting, again: true }));
     this.knobs = [...ofPad, ...ofWalls];
     const heading = ofScene.length ? [element('h3', '', 'Settings: a change starts the scene again')] : [];
     this.box.replaceChildren(...this.knobs.map(({ row }) => row), this.buttons(), ...heading, ...ofScene.map(({ row }) => row));
@@ -60,13 +59,14 @@ export class Knobs {
 
   knob(input) {
     const [row, slider, value] = [element('label', 'knob'), element('input'), element('output')];
-    const decimals = Math.max(0, Math.ceil(-Math.log10((input.most - input.least) / 100)));
+    const decimals = input.unit === 'bit' ? 0 : Math.max(0, Math.ceil(-Math.log10((input.most - input.least) / 100)));
     Object.assign(slider, { type: 'range', min: input.least, max: input.most, step: 10 ** -decimals });
     row.append(element('span', '', input.label), slider, value);
     const show = () => write(value, `${fixed(Number(slider.value), decimals)} ${input.unit}`);
     const set = (number) => {
-      slider.value = number;
-      show();
+      slider.value = number ?? input.least;
+      if (number == null) write(value, 'default');
+      else show();
     };
     slider.oninput = () => {
       show();

@@ -95,7 +95,7 @@ function acceptHello(hello) {
   fill($('speed'), SPEEDS, hello.speed || 1);
   write($('facts'), `${hello.fidelity} core · profile ${hello.profile} · slots of ${hello.slot_us} µs`);
   showTexts(hello);
-  knobs.build(opened.set);
+  knobs.build();
   bars.build();
   table.build();
   strips.build();
@@ -114,7 +114,7 @@ function showTexts({ presets, title, scene, walls, warnings }) {
   $('presets').replaceChildren(...presets.map((preset) => {
     const button = element('button', '', preset.label);
     button.ariaPressed = preset === current;
-    button.onclick = () => open({ preset: preset.name, scene: preset.scene, case: preset.case, set: { ...preset.set } });
+    button.onclick = () => open({ preset: preset.name, set: {} });
     return button;
   }));
   $('warnings').hidden = !warnings.length;
@@ -124,26 +124,29 @@ function showTexts({ presets, title, scene, walls, warnings }) {
 
 /** Opens what the page's address asks for, once. */
 function openAsked({ presets, scene }) {
-  const wanted = asked;
+  const wanted = { ...asked, scene: asked.scene ?? scene };
   asked = { set: {} };
-  const preset = presets.find(({ name }) => name === wanted.preset);
-  if (preset) open({ preset: preset.name, scene: preset.scene, case: preset.case, set: { ...preset.set, ...wanted.set } });
-  else if (wanted.preset) notice(`preset: expected one of ${presets.map(({ name }) => name).join(', ')}; got ${wanted.preset}`);
-  else if (Object.keys(wanted.set).length || wanted.case || (wanted.scene ?? scene) !== scene) open({ ...wanted, scene: wanted.scene ?? scene });
+  const names = presets.map(({ name }) => name);
+  if (wanted.preset && !names.includes(wanted.preset)) notice(`preset: expected one of ${names.join(', ')}; got ${wanted.preset}`);
+  else if (wanted.preset || wanted.case || Object.keys(wanted.set).length || wanted.scene !== scene) open(wanted);
 }
 
+/** Opens a scene, or a preset of one; `set` holds what is set besides. */
 async function open(wanted) {
-  const before = opened;
-  opened = wanted;
-  notice(`Setting up ${wanted.scene} …`);
+  const [before, preset] = [opened, model.hello.presets.find(({ name }) => name === wanted.preset)];
+  const scene = preset?.scene ?? wanted.scene;
+  opened = { ...wanted, scene };
+  notice(`Setting up ${scene} …`);
   try {
-    await link.send({ type: 'open', scene: wanted.scene, case: wanted.case, set: wanted.set });
+    const set = { ...preset?.set, ...wanted.set };
+    await link.send({ ...preset, type: 'open', scene, case: wanted.case ?? preset?.case, set });
     notice();
-    history.replaceState(null, '', writeLink(location.search, wanted));
+    history.replaceState(null, '', writeLink(location.search, opened));
   } catch (error) {
     opened = before;
     $('scene').value = model.hello.scene;
-    knobs.build(before.set);
+    $('case').value = model.hello.case_index;
+    knobs.build();
     notice(error.message);
   }
 }
@@ -275,7 +278,7 @@ const clicks = {
 };
 for (const [id, run] of Object.entries(clicks)) $(id).onclick = run;
 const changes = {
-  scene: (scene) => open({ scene, set: {} }), case: (of) => open({ ...opened, preset: null, case: of }), speed: (speed) => pace(Number(speed)),
+  scene: (scene) => open({ scene, set: {} }), case: (of) => open({ ...opened, case: of }), speed: (speed) => pace(Number(speed)),
   span: (span) => (Object.assign(strips, { span_s: Number(span) }), draw()),
 };
 for (const [id, run] of Object.entries(changes)) $(id).onchange = (event) => run(event.target.value);
