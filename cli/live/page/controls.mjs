@@ -48,13 +48,16 @@ export class Knobs {
       const key = input.name.replace('pad.', '');
       return this.knob({ ...input, key, ofPad: true, message: (value, pad) => ({ type: 'set', pad, [key]: value }) });
     });
-    const ofWalls = walls.map(({ axis, mm }) => this.knob({
+    const ofWalls = walls.map(({ axis, mm }, wall) => this.knob({
+      wall,
       key: `${axis}_mm`, label: `Wall at ${axis}`, unit: 'mm', least: Math.round(mm) - WALL_MM, most: Math.round(mm) + WALL_MM, value: mm,
       message: (value) => ({ type: 'wall', [`${axis}_mm`]: value }) }));
     const ofScene = settings.map((setting) => this.knob({ ...setting, again: true }));
     this.knobs = [...ofPad, ...ofWalls];
-    const heading = ofScene.length ? [element('h3', '', 'Settings: a change starts the scene again')] : [];
-    this.box.replaceChildren(...this.knobs.map(({ row }) => row), this.buttons(), ...heading, ...ofScene.map(({ row }) => row));
+    const details = Object.assign(element('details'), { open: this.box.querySelector('details')?.open ?? false, hidden: !ofScene.length });
+    const summary = element('summary', '', `${ofScene.length} settings of the scene; a change starts it again`);
+    details.append(summary, ...ofScene.map(({ row }) => row));
+    this.box.replaceChildren(...this.knobs.map(({ row }) => row), this.buttons(), details);
   }
 
   knob(input) {
@@ -123,7 +126,11 @@ export class Knobs {
     }
   }
 
+  /** A wall that nobody has moved here goes where the scene says. */
   draw() {
+    for (const { input, set } of this.knobs) {
+      if (input.wall !== undefined && !this.values.has(input.key)) set(this.model.latest?.walls[input.wall] ?? input.value);
+    }
     write(this.off, this.wallsOff ? 'Walls on' : 'Walls off');
   }
 }

@@ -60,10 +60,9 @@ export class Sheet extends View {
       const [x, y] = this.at(mm);
       disc(g, [x, y], 3 + (this.margin - 5) * Math.sqrt(Math.min(1, shown.terminals[k] ?? 0)), colours.measured, 0.4);
       disc(g, [x, y], 2.5, colours.ink);
-      const away = this.margin + 4;
-      const side = x < away ? 1 : x > this.width - away ? -1 : 0;
-      const lower = side ? 4 : mm[1] > 0 ? away + 2 : 4 - away;
-      label(g, `I${k + 1}`, x + side * away, y + lower, colours.muted, ['right', 'center', 'left'][side + 1]);
+      const side = x < 3 * this.margin ? 1 : x > this.width - 3 * this.margin ? -1 : 0;
+      const lower = mm[1] > 0 ? this.margin + (side ? -8 : 4) : (side ? 16 : 4) - this.margin;
+      label(g, `I${k + 1}`, x + side * 16, y + lower, colours.muted, ['right', 'center', 'left'][side + 1]);
     });
   }
 
