@@ -105,6 +105,12 @@ export class Model {
     return this.frames.slice(Math.max(0, this.index(from_s) - 1), this.index(to_s) + 1);
   }
 
+  /** Name of a pad as it is shown: with its key, unless the name is but a number. */
+  title(number) {
+    const name = this.hello.pads[number]?.name ?? '';
+    return /^(pad \d+)?$/.test(name) ? `pad ${number + 1}` : `${number + 1} ${name}`;
+  }
+
   acceptEvent(event) {
     this.events = [event, ...this.events.slice(0, MOST_EVENTS - 1)];
   }

@@ -13,8 +13,8 @@ import { SlotPlot } from './slot.mjs';
 import { Strips } from './strips.mjs';
 
 const $ = (id) => document.getElementById(id);
-/** Numbers change at most this often, so that they can be read. */
-const TEXT_MS = 100;
+/** Numbers change at most this often, so that they can be read; strips so often, since they cost most. */
+const [TEXT_MS, STRIPS_MS] = [100, 30];
 const NOTICE_MS = 6000;
 /** Without frames for this long, the values shown are called old. */
 const STALE_MS = 1500;
@@ -33,7 +33,7 @@ let speech = new Speech($('speech'), model);
 /** What is open, and what the page's address asks for, as links say it. */
 let [opened, asked] = [{ set: {} }, readLink(location.search)];
 let [paused, recording, drawing] = [false, false, false];
-let [text_ms, frames_ms, textTimer, noticeTimer] = [0, performance.now(), 0, 0];
+let [text_ms, strips_ms, frames_ms, textTimer, noticeTimer] = [0, 0, performance.now(), 0, 0];
 const link = new Link(`${location.origin.replace('http', 'ws')}/ws${location.search}`, accept, connected);
 
 /** Sends a command; a refusal is shown. */
@@ -86,7 +86,7 @@ function acceptHello(hello) {
   if (hello.protocol !== PROTOCOL) notice(`The source speaks protocol ${hello.protocol}, this page ${PROTOCOL}: load the page again`);
   model.acceptHello(hello);
   if (opened.scene !== hello.scene) opened = { scene: hello.scene, set: {} };
-  document.body.className = hello.truth ? '' : 'no-truth';
+  document.body.className = `${hello.truth ? '' : 'no-truth'} ${hello.hand ? '' : 'no-hand'}`;
   document.title = `${hello.scene} – hapticore live`;
   fill($('scene'), hello.scenes.map((name) => [name, name]), hello.scene);
   fill($('case'), hello.cases.map((name, index) => [index, name]), hello.case_index);
@@ -153,8 +153,7 @@ async function open(wanted) {
 
 function choose(number) {
   model.pad = number;
-  const name = `pad ${number + 1} ${model.hello.pads[number].name}`;
-  for (const id of ['strips-pad', 'knobs-pad', 'loupe-pad']) write($(id), name);
+  for (const id of ['strips-pad', 'knobs-pad', 'loupe-pad']) write($(id), model.title(number));
   knobs.choose();
   text_ms = 0;
   draw();
@@ -198,8 +197,8 @@ function paint(now_ms) {
   drawing = false;
   sheet.draw();
   loupe.draw();
-  strips.draw();
   bars.draw();
+  if (now_ms - strips_ms >= STRIPS_MS) paintStrips(now_ms);
   // For tests: what is drawn, and where.
   Object.assign($('sheet').dataset, { slot: model.shown?.slot ?? '', scale: sheet.scale });
   clearTimeout(textTimer);
@@ -207,13 +206,19 @@ function paint(now_ms) {
   else textTimer = setTimeout(() => paintText(performance.now()), TEXT_MS);
 }
 
+function paintStrips(now_ms) {
+  strips_ms = now_ms;
+  strips.draw();
+}
+
 function paintText(now_ms) {
   text_ms = now_ms;
+  paintStrips(now_ms);
   for (const part of [table, knobs]) part.draw();
   for (const part of [strips, bars]) part.drawValues();
   const { shown, status, frozen } = model;
   const slow = !paused && status.speed < 0.95 * status.asked_speed;
-  write($('speed-now'), paused ? 'Paused' : status.speed == null ? '' : `${fixed(status.speed, 2)} × real time${slow ? ': too slow' : ''}`);
+  write($('speed-now'), paused ? 'Paused' : status.speed == null ? '' : `${fixed(status.speed, 2)} × real time${slow ? ': machine too busy' : ''}`);
   $('speed-now').className = slow ? 'bad' : '';
   write($('slot-now'), shown ? `${fixed(shown.time_s, 2)} s, slot ${shown.slot}` : '');
   write($('answer-now'), link.answer_ms == null ? '' : `answers in ${fixed(link.answer_ms, 0)} ms`);

@@ -59,9 +59,9 @@ export class Bars {
   }
 }
 
-/** Columns of the table after name and state: column of a frame, decimals, whether it needs the truth. */
-const COLUMNS = [['force_n', 3], ['true_force_n', 3, true], ['hand_n', 3, true], ['haptic_v_rms', 0], ['capacitance_pf', 1],
-  ['x_mm', 2], ['y_mm', 2], ['error_mm', 2, true], ['age_ms', 1]];
+/** Columns of the table after name and state: column of a frame, decimals, what it needs: truth or a hand. */
+const COLUMNS = [['force_n', 3], ['true_force_n', 3, 'truth'], ['hand_n', 3, 'hand'], ['haptic_v_rms', 0], ['capacitance_pf', 1],
+  ['x_mm', 2], ['y_mm', 2], ['error_mm', 2, 'truth'], ['age_ms', 1]];
 
 /** The table of pads. */
 export class PadTable {
@@ -70,10 +70,10 @@ export class PadTable {
   }
 
   build() {
-    this.rows = this.model.hello.pads.map(({ name }, number) => {
-      const [row, head, button] = [element('tr'), element('th'), element('button', '', `${number + 1} ${name}`)];
+    this.rows = this.model.hello.pads.map((_, number) => {
+      const [row, head, button] = [element('tr'), element('th'), element('button', '', this.model.title(number))];
       const [state, flags] = [element('td', 'state'), element('td', 'flags')];
-      const cells = COLUMNS.map(([, , truth]) => element('td', truth ? 'number truth' : 'number'));
+      const cells = COLUMNS.map(([, , kind = '']) => element('td', `number ${kind}`));
       head.scope = 'row';
       head.append(button);
       row.append(head, state, ...cells, flags);
@@ -99,9 +99,9 @@ export class PadTable {
 }
 
 /** Draws the list of events, newest first; `onPick(event)` runs where one is clicked. */
-export function drawEvents(list, { events, hello }, onPick) {
-  const items = events.map((event) => {
-    const button = element('button', '', ` ${hello.pads[event.pad]?.name ?? ''}: ${event.what}`);
+export function drawEvents(list, model, onPick) {
+  const items = model.events.map((event) => {
+    const button = element('button', '', ` ${model.title(event.pad)}: ${event.what}`);
     button.prepend(element('b', '', `${fixed(event.time_s, 2)} s`));
     button.onclick = () => onPick(event);
     const item = element('li');
@@ -118,13 +118,13 @@ export class Speech {
   }
 
   hear(now_ms) {
-    const sentences = this.model.hello.pads.map(({ name }, number) => {
+    const sentences = this.model.hello.pads.map((_, number) => {
       const word = this.model.state(this.model.latest?.pads[number]);
       const heard = (this.pads[number] ??= { said: word });
       if (heard.word !== word) Object.assign(heard, { word, since_ms: now_ms });
       if (now_ms - heard.since_ms < SPOKEN_MS || heard.said === word) return null;
       heard.said = word;
-      return `${name}: ${word}`;
+      return `${this.model.title(number)}: ${word}`;
     });
     if (sentences.some(Boolean)) this.node.textContent = sentences.filter(Boolean).join('; ');
   }

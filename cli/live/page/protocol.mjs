@@ -6,7 +6,7 @@ export const PROTOCOL = 1;
 
 /** Words of a pad's state, and what each means. */
 export const STATES = {
-  free: 'Nothing brakes the pad but its weight.',
+  free: 'Outside all walls, and nothing is wrong.',
   'in wall': 'The pad is inside a wall, which brakes it by its depth.',
   sticking: 'The hand pulls the pad out of the wall, and the wall still holds it.',
   limited: 'The drive is at its limit: the force is below its target.',

@@ -96,12 +96,12 @@ export class Sheet extends View {
 
   drawLabel(g, pad) {
     const [x, y] = this.at(place(pad));
-    const side = x > this.width - 170 ? -1 : 1;
+    const side = x > this.width - (this.width < NARROW ? 130 : 170) ? -1 : 1;
     const [at, align] = [x + side * (this.radius + 9), side < 0 ? 'right' : 'left'];
     const style = pad.pad === this.model.pad ? '600 ' : '';
     const text = `${fixed(pad.force_n, 2)} N · ${this.model.state(pad)}`;
     if (this.width < NARROW) return label(g, `${pad.pad + 1}  ${text}`, at, y - 4, colours.ink, align, style);
-    label(g, `${pad.pad + 1} ${this.model.hello.pads[pad.pad].name}`, at, y - 20, colours.ink, align, style);
+    label(g, this.model.title(pad.pad), at, y - 20, colours.ink, align, style);
     return label(g, text, at, y - 6, colours.muted, align);
   }
 }

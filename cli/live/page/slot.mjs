@@ -3,7 +3,7 @@
 
 import { colours } from './draw.mjs';
 import { element } from './panels.mjs';
-import { axis } from './strips.mjs';
+import { axis, plain } from './strips.mjs';
 
 const HEIGHT = 170;
 
@@ -14,10 +14,10 @@ export class SlotPlot {
   }
 
   show(message) {
-    const { pads, parts } = this.model.hello;
+    const { parts } = this.model.hello;
     const part = parts > 1 ? `, part ${(message.pad % parts) + 1} of ${parts}` : '';
     const codes = message.codes.length ? `full scale ±${message.full_scale}` : 'no codes: this scene computes phasors';
-    this.facts.textContent = `number ${message.slot}, pad ${pads[Math.floor(message.pad / parts)].name}${part}, ${codes}`;
+    this.facts.textContent = `number ${message.slot}, ${this.model.title(Math.floor(message.pad / parts))}${part}, ${codes}`;
     this.message = message.codes.length ? message : null;
     this.build();
   }
@@ -34,7 +34,8 @@ export class SlotPlot {
     this.plot = new window.uPlot({
       width: this.box.clientWidth, height: HEIGHT, padding: [8, 8, 0, 0], legend: { show: false }, cursor: { y: false },
       scales: { x: { time: false } }, series: [{}, ...series],
-      axes: [{ ...axis(), size: 22, gap: 2, values: (plot, ticks) => ticks.map((tick) => `${tick} µs`) }, { ...axis(), size: 64, gap: 4 }],
+      axes: [{ ...axis(), size: 26, gap: 6, values: (plot, ticks) => ticks.map((tick) => `${tick} µs`) },
+        { ...axis(), size: 64, gap: 4, values: (plot, ticks) => ticks.map(plain) }],
     }, [times, ...codes], this.box);
     this.buttons.replaceChildren(...channels.map((name, k) => this.button(name, k)));
   }

@@ -9,20 +9,22 @@ const PLOT_PIXELS = 92;
 const wide = window.matchMedia('(min-width: 65rem)');
 
 /** The strips of a source. A line: name, colour, column, dash. A limit: value and name. `least`: the smallest range. */
-function strips({ limits, truth, walls, controller }) {
+function strips({ limits, truth, walls, controller, hand }) {
   const measured = (column) => ['measured', 'measured', column];
   const known = (column) => (truth ? [['true', 'true', column]] : []);
   const rail = limits.rail_v == null ? null : [limits.rail_v, 'rail'];
+  const depth = { title: 'Depth in the wall', unit: 'mm', decimals: 2, least: 2, words: 'Measured, behind the surface; negative outside.',
+    lines: [['', 'measured', 'depth_mm']] };
+  const ahead = { title: 'Finger ahead of the pad', unit: 'mm', decimals: 2, least: 1, words: 'The hand is a spring between the two.',
+    lines: [['', 'finger', 'ahead_mm']] };
+  const load = { title: 'Load', unit: 'g', decimals: 0, least: 50, words: 'With which the pad is pressed on the sheet.',
+    lines: [['', 'finger', 'load_g']] };
   const list = [
     { title: 'Haptic force', unit: 'N', decimals: 3, least: 0.2, words: 'Friction that the voltage adds. Target: what wall or controller ask for.',
       lines: [measured('force_n'), ...known('true_force_n'), ...(controller ? [['target', 'target', 'target_n', [6, 4]]] : [])] },
-    walls.length
-      ? { title: 'Depth in the wall', unit: 'mm', decimals: 2, least: 2, words: 'Measured, behind the wall’s surface; negative outside.',
-        lines: [['', 'measured', 'depth_mm']] }
-      : { title: 'Finger ahead of the pad', unit: 'mm', decimals: 2, least: 1, words: 'The hand is a spring between the two.',
-        lines: [['', 'finger', 'ahead_mm']] },
+    walls.length ? depth : hand ? ahead : load,
     { title: 'Haptic voltage', unit: 'V rms', decimals: 0, least: 50, limit: rail, words: 'Across the pad. Drive: what the source puts out; rail: its limit.',
-      lines: [measured('haptic_v_rms'), ...known('true_haptic_v_rms'), ['drive', 'target', 'drive_v_rms', [6, 4]]] },
+      lines: [measured('haptic_v_rms'), ...known('true_haptic_v_rms'), ...(controller ? [['drive', 'target', 'drive_v_rms', [6, 4]]] : [])] },
     { title: 'Capacitance', unit: 'pF', decimals: 1, least: 2, free: true, words: 'Between pad and sheet. It rises as the gap closes.',
       lines: [measured('capacitance_pf'), ...known('true_capacitance_pf')] },
   ];
@@ -48,7 +50,7 @@ function range({ least, free }, low, high) {
 
 /** A time without the zeros at its end. */
 const seconds = (value) => `${fixed(value, 3).replace(/\.?0+$/, '')} s`;
-const plain = (value) => String(Number(value.toFixed(3))).replace('-', '−');
+export const plain = (value) => String(Number(value.toFixed(3))).replace('-', '−');
 
 /** What axes of all plots have in common. */
 export const axis = () => ({ stroke: colours.muted, grid: { stroke: colours.grid, width: 1 }, ticks: { show: false }, font: '11px system-ui' });
