@@ -190,6 +190,35 @@ def space_freezes(browser, url, _):
         visit.wait(f"document.querySelector('#sheet').dataset.slot > {held} + 400")
 
 
+def strips_zoom_and_scrub(browser, url, _):
+    """A drag across the strips zooms and holds; the pointer there moves the sheet in time; a double click follows again."""
+    with Visit(browser, url) as visit:
+        visit.wait("parseFloat(document.querySelector('#slot-now').textContent) > 2")
+        box = visit.page.locator("#strips .u-over").first.bounding_box()
+        mouse, y = visit.page.mouse, box["y"] + box["height"] / 2
+        mouse.move(box["x"] + box["width"] * 0.85, y)
+        mouse.down()
+        mouse.move(box["x"] + box["width"] * 0.98, y, steps=4)
+        mouse.up()
+        expect(visit.page.locator("#freeze")).to_have_text("Follow")
+        held = visit.slot()
+        mouse.move(box["x"] + box["width"] * 0.3, y, steps=4)
+        visit.wait(f"document.querySelector('#sheet').dataset.slot < {held}")
+        mouse.dblclick(box["x"] + box["width"] * 0.3, y)
+        expect(visit.page.locator("#freeze")).to_have_text("Freeze")
+        visit.wait(f"document.querySelector('#sheet').dataset.slot > {held} + 100")
+
+
+def command_and_link_are_copied(browser, url, _):
+    """The clipboard receives a command, then a link that opens the same scene."""
+    with Visit(browser, url, permissions=["clipboard-read", "clipboard-write"]) as visit:
+        for button, beginning in (("#copy-command", "hapticore simulate peg"), ("#copy-link", f"{url}?scene=peg")):
+            visit.page.locator(button).click()
+            expect(visit.page.locator("#notice")).to_contain_text("Copied: ")
+            text = visit.page.evaluate("navigator.clipboard.readText()")
+            assert text.startswith(beginning), text
+
+
 def full_stop_runs_one_slot(browser, url, _):
     """A full stop pauses, runs exactly one slot and shows its codes; `Run` goes on."""
     with Visit(browser, url) as visit:
@@ -352,8 +381,8 @@ def take_pictures(browser, url, folder):
             visit.page.screenshot(path=folder / f"{name}-{scheme}.png", full_page=True)
 
 
-TESTS = [opens_and_runs, mouse_meets_the_wall, keys_meet_the_wall, touches_lead_a_pad_each, loupe_drags_by_touch, space_freezes,
-         full_stop_runs_one_slot, recording_downloads_a_scene, lost_connection_is_plain, links_open_scenes, presets_open,
+TESTS = [opens_and_runs, mouse_meets_the_wall, keys_meet_the_wall, touches_lead_a_pad_each, loupe_drags_by_touch, space_freezes, strips_zoom_and_scrub,
+         command_and_link_are_copied, full_stop_runs_one_slot, recording_downloads_a_scene, lost_connection_is_plain, links_open_scenes, presets_open,
          axe_finds_nothing, nothing_overflows, pictures_a_second]
 
 
