@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use toml::{Table, Value};
 
 /// Which crates of the workspace a crate may use; tests may use more ([`DEVELOPMENT`]).
-const IMPORTS: [(&str, &[&str]); 17] = [
+const IMPORTS: [(&str, &[&str]); 18] = [
     ("model/hdl", &[]),
     ("model/contract", &["hapticore-hdl"]),
     // Not the hardware language: its signals round, too.
@@ -31,6 +31,7 @@ const IMPORTS: [(&str, &[&str]); 17] = [
     ("scene/sheet", &[]),
     ("scene", &["hapticore-sheet"]),
     ("cli/files", &[]),
+    ("cli/live", &["hapticore-host", "hapticore-run", "hapticore-scene"]),
     ("waveforms", &["hapticore-files", "hapticore-hdl"]),
     (
         "cli/run",
@@ -76,6 +77,7 @@ const IMPORTS: [(&str, &[&str]); 17] = [
             "hapticore-files",
             "hapticore-hdl",
             "hapticore-host",
+            "hapticore-live",
             "hapticore-model",
             "hapticore-rtl",
             "hapticore-run",

@@ -209,15 +209,12 @@ fn serve(mut stream: TcpStream, shared: &Arc<Shared>) -> Result<()> {
             Err(refusal) => Ok(http::refuse(&mut stream, &refusal)?),
         };
     }
-    if head.method != "GET" && head.method != "HEAD" {
+    if head.method != "GET" {
         let refusal = ("405 Method Not Allowed", "expected GET".to_string());
         return Ok(http::refuse(&mut stream, &refusal)?);
     }
     match files::find(&head.path) {
-        Some(file) if head.method == "GET" => {
-            Ok(http::respond(&mut stream, "200 OK", file.kind, file.text.as_bytes())?)
-        }
-        Some(file) => Ok(http::respond(&mut stream, "200 OK", file.kind, b"")?),
+        Some(file) => Ok(http::respond(&mut stream, "200 OK", file.kind, file.text.as_bytes())?),
         None => Ok(http::refuse(&mut stream, &("404 Not Found", "no such file".into()))?),
     }
 }

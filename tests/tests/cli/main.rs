@@ -12,6 +12,7 @@ mod knobs;
 mod lab;
 mod lifted;
 mod lines;
+mod live;
 mod messages;
 mod printed_loop;
 mod recorders;
