@@ -217,8 +217,8 @@ function paintText(now_ms) {
   for (const part of [table, knobs]) part.draw();
   for (const part of [strips, bars]) part.drawValues();
   const { shown, status, frozen } = model;
-  const slow = !paused && status.speed < 0.95 * status.asked_speed;
-  write($('speed-now'), paused ? 'Paused' : status.speed == null ? '' : `${fixed(status.speed, 2)} × real time${slow ? ': machine too busy' : ''}`);
+  const slow = !paused && !model.lost && status.speed < 0.95 * status.asked_speed;
+  write($('speed-now'), model.lost ? 'Not connected' : paused ? 'Paused' : status.speed == null ? '' : `${fixed(status.speed, 2)} × real time${slow ? ': machine too busy' : ''}`);
   $('speed-now').className = slow ? 'bad' : '';
   write($('slot-now'), shown ? `${fixed(shown.time_s, 2)} s, slot ${shown.slot}` : '');
   write($('answer-now'), link.answer_ms == null ? '' : `answers in ${fixed(link.answer_ms, 0)} ms`);

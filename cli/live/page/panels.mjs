@@ -93,7 +93,9 @@ export class PadTable {
       state.dataset.state = word;
       state.title = STATES[word] ?? '';
       write(flags, pad?.flags?.replaceAll('+', ', ').replaceAll('_', ' ') || 'none');
-      cells.forEach((cell, k) => write(cell, fixed(pad?.[COLUMNS[k][0]], COLUMNS[k][1])));
+      // An age counts while frames come; later it would look younger than it is.
+      const old = this.model.lost || this.model.stale;
+      cells.forEach((cell, k) => write(cell, old && COLUMNS[k][0] === 'age_ms' ? '–' : fixed(pad?.[COLUMNS[k][0]], COLUMNS[k][1])));
     });
   }
 }

@@ -276,6 +276,7 @@ def lost_connection_is_plain(browser, url, _):
         expect(visit.page.locator("#banner")).to_contain_text("No connection")
         expect(visit.page.locator("#pads .state").first).to_have_text("lost")
         assert set(visit.page.locator("#pads .state").all_inner_texts()) == {"lost"}
+        assert visit.row(0)["Age, ms"] == "–"
         assert "grayscale" in visit.page.locator("#cards").evaluate("cards => getComputedStyle(cards).filter")
         visit.page.keyboard.press("ArrowLeft")
         expect(visit.page.locator("#notice")).to_contain_text("not sent")
