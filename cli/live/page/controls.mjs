@@ -50,11 +50,14 @@ export class Knobs {
     });
     const ofWalls = walls.map(({ axis, mm }, wall) => this.knob({
       wall,
-      key: `${axis}_mm`, label: `Wall at ${axis}`, unit: 'mm', least: Math.round(mm) - WALL_MM, most: Math.round(mm) + WALL_MM, value: mm,
+      key: `${axis}_mm`, label: `Wall at ${axis}`, unit: 'mm', value: mm,
+      least: Math.round(mm) - WALL_MM, most: Math.round(mm) + WALL_MM,
       message: (value) => ({ type: 'wall', [`${axis}_mm`]: value }) }));
     const ofScene = settings.map((setting) => this.knob({ ...setting, again: true }));
     this.knobs = [...ofPad, ...ofWalls];
-    const details = Object.assign(element('details'), { open: this.box.querySelector('details')?.open ?? false, hidden: !ofScene.length });
+    const details = element('details');
+    details.open = this.box.querySelector('details')?.open ?? false;
+    details.hidden = !ofScene.length;
     const summary = element('summary', '', `${ofScene.length} settings of the scene; a change starts it again`);
     details.append(summary, ...ofScene.map(({ row }) => row));
     this.box.replaceChildren(...this.knobs.map(({ row }) => row), this.buttons(), details);

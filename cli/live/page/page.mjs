@@ -88,11 +88,12 @@ function acceptHello(hello) {
   if (opened.scene !== hello.scene) opened = { scene: hello.scene, set: {} };
   document.body.className = `${hello.truth ? '' : 'no-truth'} ${hello.hand ? '' : 'no-hand'}`;
   document.title = `${hello.scene} – hapticore live`;
-  fill($('scene'), hello.scenes.map((name) => [name, name]), hello.scene);
+  const scenes = new Set([hello.scene, ...hello.scenes]);
+  fill($('scene'), [...scenes].sort().map((name) => [name, name]), hello.scene);
   fill($('case'), hello.cases.map((name, index) => [index, name]), hello.case_index);
   $('case').parentElement.hidden = hello.cases.length < 2;
-  if (!SPEEDS.some(([speed]) => speed === hello.speed) && hello.speed) SPEEDS.push([hello.speed, fixed(hello.speed, 2)]);
-  fill($('speed'), SPEEDS, hello.speed || 1);
+  const other = hello.speed && !SPEEDS.some(([speed]) => speed === hello.speed) ? [[hello.speed, fixed(hello.speed, 2)]] : [];
+  fill($('speed'), [...SPEEDS, ...other], hello.speed || 1);
   write($('facts'), `${hello.fidelity} core · profile ${hello.profile} · slots of ${hello.slot_us} µs`);
   showTexts(hello);
   knobs.build();
@@ -109,8 +110,9 @@ function acceptHello(hello) {
 /** Presets, hint and warnings. */
 function showTexts({ presets, title, scene, walls, warnings }) {
   const current = presets.find(({ name }) => name === opened.preset);
-  const wall = walls.length ? ' into the hatched wall: the deeper it goes, the harder the sheet brakes it.' : ' and see what the core measures.';
-  write($('hint'), current?.hint ?? `${title || scene}. Drag a pad${wall}`);
+  const what = walls.length ? 'into the hatched wall: the deeper it goes, the harder the sheet brakes it'
+    : 'and see what the core measures';
+  write($('hint'), current?.hint ?? `${title || scene}. Drag a pad ${what}.`);
   $('presets').replaceChildren(...presets.map((preset) => {
     const button = element('button', '', preset.label);
     button.ariaPressed = preset === current;
@@ -128,7 +130,7 @@ function openAsked({ presets, scene }) {
   asked = { set: {} };
   const names = presets.map(({ name }) => name);
   if (wanted.preset && !names.includes(wanted.preset)) notice(`preset: expected one of ${names.join(', ')}; got ${wanted.preset}`);
-  else if (wanted.preset || wanted.case || Object.keys(wanted.set).length || wanted.scene !== scene) open(wanted);
+  else if (wanted.preset || wanted.case || wanted.scene !== scene || Object.keys(wanted.set).length) open(wanted);
 }
 
 /** Opens a scene, or a preset of one; `set` holds what is set besides. */
@@ -218,7 +220,8 @@ function paintText(now_ms) {
   for (const part of [strips, bars]) part.drawValues();
   const { shown, status, frozen } = model;
   const slow = !paused && !model.lost && status.speed < 0.95 * status.asked_speed;
-  write($('speed-now'), model.lost ? 'Not connected' : paused ? 'Paused' : status.speed == null ? '' : `${fixed(status.speed, 2)} × real time${slow ? ': machine too busy' : ''}`);
+  const reached = status.speed == null ? '' : `${fixed(status.speed, 2)} × real time${slow ? ': machine too busy' : ''}`;
+  write($('speed-now'), model.lost ? 'Not connected' : paused ? 'Paused' : reached);
   $('speed-now').className = slow ? 'bad' : '';
   write($('slot-now'), shown ? `${fixed(shown.time_s, 2)} s, slot ${shown.slot}` : '');
   write($('answer-now'), link.answer_ms == null ? '' : `answers in ${fixed(link.answer_ms, 0)} ms`);

@@ -95,7 +95,9 @@ export class PadTable {
       write(flags, pad?.flags?.replaceAll('+', ', ').replaceAll('_', ' ') || 'none');
       // An age counts while frames come; later it would look younger than it is.
       const old = this.model.lost || this.model.stale;
-      cells.forEach((cell, k) => write(cell, old && COLUMNS[k][0] === 'age_ms' ? '–' : fixed(pad?.[COLUMNS[k][0]], COLUMNS[k][1])));
+      COLUMNS.forEach(([column, decimals], k) => {
+        write(cells[k], old && column === 'age_ms' ? '–' : fixed(pad?.[column], decimals));
+      });
     });
   }
 }

@@ -29,7 +29,8 @@ export class SlotPlot {
     this.buttons.replaceChildren();
     if (!this.message) return;
     const { channels, codes, sample_rate_hz } = this.message;
-    const series = channels.map((name, k) => ({ width: 1.25, points: { show: false }, show: !this.hidden.has(name), ...style(k) }));
+    const shown = (name) => ({ show: !this.hidden.has(name), width: 1.25, points: { show: false } });
+    const series = channels.map((name, k) => ({ ...shown(name), ...style(k) }));
     const times = codes[0].map((_, k) => (1e6 * k) / sample_rate_hz);
     this.plot = new window.uPlot({
       width: this.box.clientWidth, height: HEIGHT, padding: [8, 8, 0, 0], legend: { show: false }, cursor: { y: false },

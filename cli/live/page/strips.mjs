@@ -8,30 +8,30 @@ const AXIS_PIXELS = 22;
 const PLOT_PIXELS = 92;
 const wide = window.matchMedia('(min-width: 65rem)');
 
-/** The strips of a source. A line: name, colour, column, dash. A limit: value and name. `least`: the smallest range. */
+/**
+ * The strips of a source. A line has a name, colour, column and dash, a limit its value and name; `least` is the
+ * smallest range of the axis, which holds zero unless the strip is `free`.
+ */
 function strips({ limits, truth, walls, controller, hand }) {
-  const measured = (column) => ['measured', 'measured', column];
-  const known = (column) => (truth ? [['true', 'true', column]] : []);
-  const rail = limits.rail_v == null ? null : [limits.rail_v, 'rail'];
-  const depth = { title: 'Depth in the wall', unit: 'mm', decimals: 2, least: 2, words: 'Measured, behind the surface; negative outside.',
-    lines: [['', 'measured', 'depth_mm']] };
-  const ahead = { title: 'Finger ahead of the pad', unit: 'mm', decimals: 2, least: 1, words: 'The hand is a spring between the two.',
-    lines: [['', 'finger', 'ahead_mm']] };
-  const load = { title: 'Load', unit: 'g', decimals: 0, least: 50, words: 'With which the pad is pressed on the sheet.',
-    lines: [['', 'finger', 'load_g']] };
-  const list = [
-    { title: 'Haptic force', unit: 'N', decimals: 3, least: 0.2, words: 'Friction that the voltage adds. Target: what wall or controller ask for.',
-      lines: [measured('force_n'), ...known('true_force_n'), ...(controller ? [['target', 'target', 'target_n', [6, 4]]] : [])] },
+  const strip = (title, unit, decimals, least, words, lines, more) => ({ title, unit, decimals, least, words, lines, ...more });
+  const one = (colour, column) => [['', colour, column]];
+  const measured = (column) => [['measured', 'measured', column], ...(truth ? [['true', 'true', `true_${column}`]] : [])];
+  const asked = (name, column) => (controller ? [[name, 'target', column, [6, 4]]] : []);
+  const limit = (value, name) => (value == null ? {} : { limit: [value, name] });
+  const depth = strip('Depth in the wall', 'mm', 2, 2, 'Measured, behind the surface; negative outside.', one('measured', 'depth_mm'));
+  const ahead = strip('Finger ahead of the pad', 'mm', 2, 1, 'The hand is a spring between the two.', one('finger', 'ahead_mm'));
+  const load = strip('Load', 'g', 0, 50, 'With which the pad is pressed on the sheet.', one('finger', 'load_g'));
+  const error = strip('Position error', 'mm', 2, 0.5, 'From the true to the measured position.', one('measured', 'error_mm'),
+    limit(limits.position_mm, 'limit'));
+  return [
+    strip('Haptic force', 'N', 3, 0.2, 'Friction that the voltage adds. Target: what wall or controller ask for.',
+      [...measured('force_n'), ...asked('target', 'target_n')]),
     walls.length ? depth : hand ? ahead : load,
-    { title: 'Haptic voltage', unit: 'V rms', decimals: 0, least: 50, limit: rail, words: 'Across the pad. Drive: what the source puts out; rail: its limit.',
-      lines: [measured('haptic_v_rms'), ...known('true_haptic_v_rms'), ...(controller ? [['drive', 'target', 'drive_v_rms', [6, 4]]] : [])] },
-    { title: 'Capacitance', unit: 'pF', decimals: 1, least: 2, free: true, words: 'Between pad and sheet. It rises as the gap closes.',
-      lines: [measured('capacitance_pf'), ...known('true_capacitance_pf')] },
+    strip('Haptic voltage', 'V rms', 0, 50, 'Across the pad. Drive: what the controller asks for; rail: its limit.',
+      [...measured('haptic_v_rms'), ...asked('drive', 'drive_v_rms')], limit(limits.rail_v, 'rail')),
+    strip('Capacitance', 'pF', 1, 2, 'Between pad and sheet. It rises as the gap closes.', measured('capacitance_pf'), { free: true }),
+    ...(truth ? [error] : []),
   ];
-  const limit = limits.position_mm == null ? null : [limits.position_mm, 'limit'];
-  if (truth) list.push({ title: 'Position error', unit: 'mm', decimals: 2, least: 0.5, limit, words: 'Between measured and true position.',
-    lines: [['', 'measured', 'error_mm']] });
-  return list;
 }
 
 const STEPS = [1, 1.2, 1.6, 2, 2.5, 3, 4, 5, 6, 8, 10];
@@ -53,7 +53,9 @@ const seconds = (value) => `${fixed(value, 3).replace(/\.?0+$/, '')} s`;
 export const plain = (value) => String(Number(value.toFixed(3))).replace('-', '−');
 
 /** What axes of all plots have in common. */
-export const axis = () => ({ stroke: colours.muted, grid: { stroke: colours.grid, width: 1 }, ticks: { show: false }, font: '11px system-ui' });
+export function axis() {
+  return { stroke: colours.muted, grid: { stroke: colours.grid, width: 1 }, ticks: { show: false }, font: '11px system-ui' };
+}
 
 export class Strips {
   constructor(box, model, onChange) {
@@ -82,16 +84,18 @@ export class Strips {
   }
 
   options(strip, last) {
+    const times = (plot, ticks) => ticks.map((tick) => (last && tick >= 0 ? seconds(tick) : ''));
     return {
       width: 400, height: PLOT_PIXELS, padding: [6, 4, last ? 0 : 4, 0], legend: { show: false },
       cursor: { sync: { key: 'strips' }, y: false, drag: { x: true, y: false, setScale: false },
         bind: { dblclick: () => () => this.unzoom() } },
       scales: { x: { time: false }, y: { range: (plot, low, high) => range(strip, low, high) } },
-      axes: [{ ...axis(), size: last ? AXIS_PIXELS : 0, space: 60, gap: 2, values: (plot, ticks) => ticks.map((tick) => (last && tick >= 0 ? seconds(tick) : '')) },
+      axes: [{ ...axis(), size: last ? AXIS_PIXELS : 0, space: 60, gap: 2, values: times },
         { ...axis(), size: 44, space: 24, gap: 4, values: (plot, ticks) => ticks.map(plain) }],
       series: [{}, ...strip.lines.map(([, colour, , dash], k) =>
         ({ stroke: colours[colour], width: k ? 1.25 : 1.75, dash, points: { show: false } }))],
-      hooks: { drawAxes: [(plot) => this.drawLimit(plot, strip)], setSelect: [(plot) => this.zoom(plot)], setCursor: [(plot) => this.point(plot)] },
+      hooks: { drawAxes: [(plot) => this.drawLimit(plot, strip)], setSelect: [(plot) => this.zoom(plot)],
+        setCursor: [(plot) => this.point(plot)] },
     };
   }
 
@@ -141,7 +145,8 @@ export class Strips {
     const captions = this.plots.reduce((sum, { caption }) => sum + caption.offsetHeight + 6, 0);
     const share = Math.floor((this.box.clientHeight - captions - AXIS_PIXELS) / this.plots.length);
     const height = wide.matches ? Math.max(70, share) : PLOT_PIXELS;
-    for (const { plot, last } of this.plots) plot.setSize({ width: this.box.clientWidth, height: height + (last ? AXIS_PIXELS : 0) });
+    const width = this.box.clientWidth;
+    for (const { plot, last } of this.plots) plot.setSize({ width, height: height + (last ? AXIS_PIXELS : 0) });
   }
 
   draw() {

@@ -12,6 +12,7 @@ tests; without one all run. The last line counts them; a failure makes the exit 
 
 import argparse
 import importlib.util
+import itertools
 import os
 import pathlib
 import re
@@ -155,7 +156,11 @@ def touches_lead_a_pad_each(browser, url, _):
             return [{"x": x - step, "y": y, "id": k} for k, (x, y) in enumerate(starts)]
 
         touch.send("Input.dispatchTouchEvent", {"type": "touchStart", "touchPoints": points(0)})
-        visit.push(lambda step: touch.send("Input.dispatchTouchEvent", {"type": "touchMove", "touchPoints": points(step)}), [0, 3])
+
+        def move(step):
+            touch.send("Input.dispatchTouchEvent", {"type": "touchMove", "touchPoints": points(step)})
+
+        visit.push(move, [0, 3])
         touch.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
         assert visit.page.evaluate("scrollY") == 0
 
@@ -193,7 +198,9 @@ def space_freezes(browser, url, _):
 def strips_zoom_and_scrub(browser, url, _):
     """A drag across the strips zooms and holds; the pointer there moves the sheet in time; a double click follows again."""
     with Visit(browser, url) as visit:
-        visit.wait("parseFloat(document.querySelector('#slot-now').textContent) > 2")
+        # The page knows only the frames since it was opened.
+        begun_s = float(visit.page.locator("#slot-now").inner_text().split(" s")[0])
+        visit.wait(f"parseFloat(document.querySelector('#slot-now').textContent) > {begun_s + 3}")
         box = visit.page.locator("#strips .u-over").first.bounding_box()
         mouse, y = visit.page.mouse, box["y"] + box["height"] / 2
         mouse.move(box["x"] + box["width"] * 0.85, y)
@@ -366,14 +373,16 @@ def pictures_a_second(browser, url, _):
         rates = []
         while max(rates, default=0) < PICTURES and len(rates) < WINDOWS:
             rates.append(visit.page.evaluate(PICTURES_JS, 1.5))
-        print(f"  pictures a second: {', '.join(f'{rate:.0f}' for rate in rates)}; load {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores")
+        load = f"load {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores"
+        print(f"  pictures a second: {', '.join(f'{rate:.0f}' for rate in rates)}; {load}")
         assert max(rates) >= PICTURES, rates
 
 
 def take_pictures(browser, url, folder):
     """Pictures of the page while the first pad is in the wall."""
-    for name, width, height, scheme in [("wide", 1280, 900, "light"), ("wide", 1280, 900, "dark"), ("phone", 390, 844, "light"), ("phone", 390, 844, "dark")]:
-        with Visit(browser, url, width=width, height=height, color_scheme=scheme, device_scale_factor=2 if width < 500 else 1) as visit:
+    sizes = [("wide", 1280, 900, 1), ("phone", 390, 844, 2)]
+    for (name, width, height, scale), scheme in itertools.product(sizes, ("light", "dark")):
+        with Visit(browser, url, width=width, height=height, color_scheme=scheme, device_scale_factor=scale) as visit:
             visit.restart()
             visit.push(lambda _, visit=visit: visit.page.keyboard.press("ArrowLeft"))
             visit.page.locator("#take-slot").click()
@@ -382,14 +391,17 @@ def take_pictures(browser, url, folder):
             visit.page.screenshot(path=folder / f"{name}-{scheme}.png", full_page=True)
 
 
-TESTS = [opens_and_runs, mouse_meets_the_wall, keys_meet_the_wall, touches_lead_a_pad_each, loupe_drags_by_touch, space_freezes, strips_zoom_and_scrub,
-         command_and_link_are_copied, full_stop_runs_one_slot, recording_downloads_a_scene, lost_connection_is_plain, links_open_scenes, presets_open,
-         axe_finds_nothing, nothing_overflows, pictures_a_second]
+TESTS = [
+    opens_and_runs, mouse_meets_the_wall, keys_meet_the_wall, touches_lead_a_pad_each, loupe_drags_by_touch, space_freezes,
+    strips_zoom_and_scrub, full_stop_runs_one_slot, recording_downloads_a_scene, command_and_link_are_copied,
+    lost_connection_is_plain, links_open_scenes, presets_open, axe_finds_nothing, nothing_overflows, pictures_a_second,
+]
 
 
 def start(binary):
     """Starts the server at a free port: the process and its address."""
-    process = subprocess.Popen([binary, "live", "peg", "--port", "0"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    command = [binary, "live", "peg", "--port", "0"]
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     for line in process.stdout:
         if found := re.search(r"http://\S+", line):
             return process, found[0]
@@ -420,7 +432,8 @@ def main():
     process, url = start(binary) if binary else (None, options.url)
     try:
         with sync_playwright() as playwright:
-            browser = playwright.chromium.launch(executable_path=os.environ.get("CHROMIUM", "/usr/bin/chromium"), args=["--no-sandbox"])
+            chromium = os.environ.get("CHROMIUM", "/usr/bin/chromium")
+            browser = playwright.chromium.launch(executable_path=chromium, args=["--no-sandbox"])
             tests = [test for test in TESTS if not options.names or test.__name__ in options.names]
             passed = sum(run(test, browser, url, binary) for test in tests)
             if options.pictures:
