@@ -108,10 +108,11 @@ function acceptHello(hello) {
 }
 
 /** Presets, hint and warnings. */
-function showTexts({ presets, title, scene, walls, warnings }) {
+function showTexts({ presets, title, summary, scene, walls, warnings }) {
   const current = presets.find(({ name }) => name === opened.preset);
   const what = walls.length ? 'into the hatched wall: the deeper it goes, the harder the sheet brakes it'
     : 'and see what the core measures';
+  $('hint').title = summary;
   write($('hint'), current?.hint ?? `${title || scene}. Drag a pad ${what}.`);
   $('presets').replaceChildren(...presets.map((preset) => {
     const button = element('button', '', preset.label);

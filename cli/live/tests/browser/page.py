@@ -312,7 +312,8 @@ def presets_open(browser, url, _):
         for k in range(6):
             buttons.nth(k).click()
             expect(buttons.nth(k)).to_have_attribute("aria-pressed", "true")
-            visit.wait("document.querySelector('#notice').hidden && parseFloat(document.querySelector('#slot-now').textContent) > 0.2")
+            visit.wait("document.querySelector('#notice').hidden")
+            visit.wait("parseFloat(document.querySelector('#slot-now').textContent) > 0.2")
             assert "preset=" in visit.page.url
             assert len(visit.page.locator("#hint").inner_text()) > 20
         visit.page.locator("#scene").select_option("peg")
