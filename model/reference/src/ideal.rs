@@ -163,6 +163,7 @@ impl<T: Real> Reference<T> {
     /// # Panics
     /// Where `codes` is not one code per channel and sample, or there is no such pad.
     pub fn slot(&mut self, pad: usize, codes: &[i32]) -> Measurement<T> {
+        self.assert_pad(pad);
         assert_eq!(
             codes.len(),
             self.window.len() * self.channels,
@@ -196,6 +197,7 @@ impl<T: Real> Reference<T> {
         phasors: &[(f64, f64)],
         mean_square: f64,
     ) -> Measurement<T> {
+        self.assert_pad(pad);
         assert_eq!(
             phasors.len(),
             self.signs.len() + 1,
@@ -203,6 +205,12 @@ impl<T: Real> Reference<T> {
         );
         let phasors: Vec<_> = phasors.iter().map(|&(i, q)| [i, q].map(real)).collect();
         self.estimate(pad, &phasors, real(mean_square), false)
+    }
+
+    /// Refuses a pad before anything has changed.
+    fn assert_pad(&self, pad: usize) {
+        let pads = self.held.len();
+        assert!(pad < pads, "pad: expected below {pads}, got {pad}");
     }
 
     /// The capacitance of the last slot by eq. 6 alone, in picofarads: what it is without the

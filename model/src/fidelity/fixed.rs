@@ -14,7 +14,7 @@
 
 use super::plain::{PlainSums, WHOLE, Waves, Words};
 use super::tone::{Response, WindowedSample};
-use super::{Gathered, signals};
+use super::{Gathered, assert_pad, signals};
 use crate::blocks::core::{self, Core};
 use crate::blocks::estimator::{self, Estimator, In, Inputs, PromptPort};
 use crate::blocks::oscillator::Inputs as Sample;
@@ -65,6 +65,7 @@ pub struct FixedSimulation<V: Interpretation = i64> {
     adc: Format,
     oscillator: Format,
     channels: usize,
+    pads: usize,
     local: Vec<Local<V>>,
     /// The window's sums in one loop, where it is exact.
     plain: Option<Plain>,
@@ -97,6 +98,7 @@ impl<V: Interpretation> FixedSimulation<V> {
             adc: profile.formats.adc,
             oscillator: profile.formats.oscillator,
             channels: profile.channels(),
+            pads: profile.pads as usize,
             sums,
             prompt: None,
             core,
@@ -111,9 +113,10 @@ impl<V: Interpretation> FixedSimulation<V> {
     /// The frame of a slot: `codes` are those of its window, a sample after the other.
     ///
     /// # Panics
-    /// Where `codes` is not one code per channel and sample, or the estimator does not finish
-    /// within its latency.
+    /// Where there is no such pad, `codes` is not one code per channel and sample, or the estimator
+    /// does not finish within its latency. A wrong pad or length leaves the core as it was.
     pub fn slot(&mut self, pad: usize, codes: &[i32]) -> Frame {
+        assert_pad(pad, self.pads);
         assert_eq!(
             codes.len(),
             self.window() * self.channels,
@@ -130,9 +133,10 @@ impl<V: Interpretation> FixedSimulation<V> {
     /// [`slot`](FixedSimulation::slot) of the same tones' samples differs by it.
     ///
     /// # Panics
-    /// Where `amplitudes` is not one a demodulated channel, or the estimator does not finish within
-    /// its latency.
+    /// Where there is no such pad, `amplitudes` is not one a demodulated channel, or the estimator
+    /// does not finish within its latency. A wrong pad or number leaves the core as it was.
     pub fn phasors(&mut self, pad: usize, amplitudes: &[(f64, f64)], mean_square: f64) -> Frame {
+        assert_pad(pad, self.pads);
         assert_eq!(
             amplitudes.len(),
             self.channels - 1,
@@ -511,10 +515,37 @@ fn local<V: Interpretation>(core: &Core, profile: &Profile) -> Vec<Local<V>> {
 
 #[cfg(test)]
 mod tests {
+    use std::panic::{AssertUnwindSafe, catch_unwind};
+
     use super::*;
     use crate::support::device;
     use crate::support::random::Random;
     use hapticore_hdl::interpretations::shadow::Shadow;
+
+    #[test]
+    fn a_slot_of_no_pad_leaves_the_core_as_it_was() {
+        let profile = Profile::bundled("standard").unwrap();
+        let new = || FixedSimulation::<i64>::new(&profile, &device::calibration(&profile));
+        let (mut refusing, mut same) = (new(), new());
+        let mut random = Random::new(2);
+        let mut codes = || -> Vec<i32> {
+            let count = same.window() * profile.channels();
+            (0..count).map(|_| random.word(profile.formats.adc) as i32 >> 4).collect()
+        };
+        let tones = vec![(0.1, 0.01); profile.channels() - 1];
+        for (n, codes) in [codes(), codes(), codes()].iter().enumerate() {
+            let pad = n % profile.pads as usize;
+            let mut is_refused = |of: &mut dyn FnMut(&mut FixedSimulation) -> Frame| {
+                catch_unwind(AssertUnwindSafe(|| of(&mut refusing))).is_err()
+            };
+            assert!(is_refused(&mut |core| core.slot(profile.pads as usize, codes)));
+            assert!(is_refused(&mut |core| core.slot(99, codes)));
+            assert!(is_refused(&mut |core| core.slot(pad, &codes[1..])));
+            assert!(is_refused(&mut |core| core.phasors(99, &tones, 0.1)));
+            assert!(is_refused(&mut |core| core.phasors(pad, &tones[1..], 0.1)));
+            assert_eq!(refusing.slot(pad, codes), same.slot(pad, codes));
+        }
+    }
 
     /// Random codes with many corners, then windows of the largest, the most negative and of both in
     /// turn.

@@ -7,7 +7,7 @@
 //! makes the window that depends on it.
 
 use super::fixed::FixedSimulation;
-use super::{Gathered, signals};
+use super::{Gathered, assert_pad, signals};
 use crate::blocks::controller::{self, Faults as FaultPort};
 use crate::blocks::core;
 use crate::blocks::drives::{self, DrivePort, Drives, TargetPort};
@@ -120,6 +120,7 @@ pub struct FixedLoop {
     drives: Drives,
     state: State<Drives, i64>,
     idle: drives::Inputs<i64>,
+    pads: usize,
 }
 
 impl FixedLoop {
@@ -136,7 +137,7 @@ impl FixedLoop {
         drives.hurry();
         let (state, idle) = (drives.reset(), idle(&drives, tuning));
         let core = FixedSimulation::new(profile, calibration);
-        let mut of = FixedLoop { core, drives, state, idle };
+        let mut of = FixedLoop { core, drives, state, idle, pads: profile.pads as usize };
         of.tick();
         for write in curve_writes(of.drives.inputs().tuning, tuning) {
             of.clock(drives::Inputs { tuning: write, ..of.idle });
@@ -150,13 +151,21 @@ impl FixedLoop {
     }
 
     /// Sets a pad's target force, N.
+    ///
+    /// # Panics
+    /// Where there is no such pad; the loop stays as it was.
     pub fn set_target(&mut self, pad: usize, newtons: f64) {
+        assert_pad(pad, self.pads);
         let target = target_write(&self.drives.inputs().target, pad, newtons);
         self.clock(drives::Inputs { target, ..self.idle });
     }
 
     /// Sets where the wall that is known by this number begins.
+    ///
+    /// # Panics
+    /// As [`FixedLoop::set_target`].
     pub fn set_surface(&mut self, pad: usize, surface: Surface) {
+        assert_pad(pad, self.pads);
         let wall = surface_write(&self.drives.inputs().wall, self.idle.wall, pad, surface);
         self.clock(drives::Inputs { wall, ..self.idle });
     }
@@ -236,6 +245,7 @@ pub struct ClockLoop {
     /// What the ADC sees of a slot's blanking.
     silence: Vec<i32>,
     channels: usize,
+    pads: usize,
     /// The walls, nothing written.
     wall: WallPort<i64>,
     state: ClockState,
@@ -286,6 +296,7 @@ impl ClockLoop {
             clocks_per_sample: profile.clocks_per_sample,
             silence: vec![0; profile.slot.blanking() as usize * channels],
             channels,
+            pads: profile.pads as usize,
             wall: drives.wall,
             block,
         };
@@ -317,14 +328,22 @@ impl ClockLoop {
     }
 
     /// Sets a pad's target force, N.
+    ///
+    /// # Panics
+    /// As [`FixedLoop::set_target`].
     pub fn set_target(&mut self, pad: usize, newtons: f64) {
+        assert_pad(pad, self.pads);
         let formats = self.block.inputs().target;
         let target = signals::<TargetPort, i64>(target_write(&formats, pad, newtons), formats);
         self.step(Inputs { target, ..self.inputs });
     }
 
     /// Sets where the wall that is known by this number begins.
+    ///
+    /// # Panics
+    /// As [`FixedLoop::set_target`].
     pub fn set_surface(&mut self, pad: usize, surface: Surface) {
+        assert_pad(pad, self.pads);
         let formats = self.block.inputs().wall;
         let wall = surface_write(&formats, self.wall, pad, surface);
         let wall = signals::<WallPort, i64>(wall, formats);

@@ -15,6 +15,14 @@ use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::Format;
 use hapticore_hdl::signal::{self, Signal, Value};
 
+/// Refuses a pad that the core does not serve, before anything of it has changed.
+///
+/// # Panics
+/// Where there is no such pad.
+pub(crate) fn assert_pad(pad: usize, pads: usize) {
+    assert!(pad < pads, "pad: expected below {pads}, got {pad}");
+}
+
 /// The signals of a bundle of constants.
 pub(crate) fn signals<S: Bundle, V: Value>(
     codes: S::Of<i64>,

@@ -20,8 +20,8 @@
 //! is what it is for these samples. From there on the estimator is run as [`Noise`].
 
 use super::fixed::{FixedSimulation, calibrated, quiet, run};
-use super::signals;
 use super::tone::WindowedSample;
+use super::{assert_pad, signals};
 use crate::blocks::core::{self, Core};
 use crate::blocks::estimator::{In, Inputs};
 use hapticore_contract::calibration::Calibration;
@@ -89,6 +89,7 @@ pub struct Predictor {
     state: State<Core, Noise>,
     begun: Mark,
     quiet: In<Noise>,
+    pads: usize,
     of_codes: FixedSimulation<i64>,
     of_reals: FixedSimulation<Real>,
     /// The local oscillator over the window, by its words and without rounding.
@@ -147,6 +148,7 @@ impl Predictor {
             state,
             begun,
             quiet,
+            pads: profile.pads as usize,
             of_codes,
             of_reals,
             waves,
@@ -156,9 +158,10 @@ impl Predictor {
     /// What the core's results for a slot with these signals are off.
     ///
     /// # Panics
-    /// Where there is not an amplitude for each demodulated channel, or a sample for each channel and
-    /// time.
+    /// Where there is no such pad, not an amplitude for each demodulated channel, or a sample for each
+    /// channel and time.
     pub fn slot(&mut self, pad: usize, signals: Signals) -> Prediction {
+        assert_pad(pad, self.pads);
         self.recording.rewind(self.begun);
         let (sums, least_codes) = self.sums(signals);
         let (pad, clipped) = (code(pad as i64, self.quiet.pad.format), bit(false));
