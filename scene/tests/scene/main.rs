@@ -8,6 +8,7 @@ mod common;
 mod defaults;
 mod effects;
 mod gallery;
+mod inputs;
 mod limits;
 mod messages;
 mod moving;

@@ -6,13 +6,13 @@ use crate::common::ode::{Ode, REST_UM};
 use crate::common::standard_timing as timing;
 use hapticore_scene::{DriveError, Plant, Scene, Truth};
 
-fn plant(text: &str) -> Plant {
+pub fn plant(text: &str) -> Plant {
     let text = format!("title = \"t\"\n{text}");
     let scene = Scene::parse(&text, "s.toml", &[]).unwrap_or_else(|error| panic!("{error}"));
     Plant::new(&scene, 0, &timing()).unwrap()
 }
 
-fn truths(text: &str) -> Vec<Truth> {
+pub fn truths(text: &str) -> Vec<Truth> {
     let mut plant = plant(text);
     (0..plant.slots()).map(|slot| plant.truth(slot)).collect()
 }
@@ -147,7 +147,7 @@ fn switching_on_and_off_is_met_at_any_time() {
 }
 
 /// Numbers that look random, 0 to 1.
-struct Draw(u64);
+pub struct Draw(pub u64);
 
 impl Draw {
     fn next(&mut self) -> f64 {
@@ -155,7 +155,7 @@ impl Draw {
         (self.0 >> 11) as f64 / (1u64 << 53) as f64
     }
 
-    fn within(&mut self, from: f64, to: f64) -> f64 {
+    pub fn within(&mut self, from: f64, to: f64) -> f64 {
         from + (to - from) * self.next()
     }
 
@@ -196,7 +196,7 @@ fn timeline(steps: &[[f64; 2]]) -> String {
 }
 
 /// Effects with a state, each at a level and a step of its own.
-const STATES: [&str; 10] = [
+pub const STATES: [&str; 10] = [
     "[gap]\nrung = \"tr-bdf2\"\n",
     "[gap]\nrung = \"quasi-static\"\nstep_us = 700\n[supply]\n",
     "[gap]\nrung = \"trapezoid\"\nstep_us = 130\n[halves]\n",
@@ -214,7 +214,7 @@ const STATES: [&str; 10] = [
 ];
 
 /// What a state is, to the bit.
-fn bits(truth: &Truth) -> [u64; 8] {
+pub fn bits(truth: &Truth) -> [u64; 8] {
     let Truth { time_s, x_mm, y_mm, capacitance_pf, force_n, friction_n, .. } = truth;
     [*time_s, *x_mm, *y_mm, *capacitance_pf, *force_n, *friction_n, truth.direction, truth.load_g]
         .map(f64::to_bits)
