@@ -152,6 +152,10 @@ impl Hub {
         let planned_s = self.wall_s() + wait_s;
         match self.inbox.recv_timeout(Duration::from_secs_f64(wait_s)) {
             Ok(message) => {
+                if self.is_idle() {
+                    // Until now: the message may let time run.
+                    self.pace.stand(self.wall_s());
+                }
                 self.take(message);
                 let more: Vec<Message> = self.inbox.try_iter().take(REQUESTS).collect();
                 more.into_iter().for_each(|message| self.take(message));

@@ -32,7 +32,10 @@ pub fn names() -> Vec<String> {
 
 const FLAGS: [&str; 5] = ["clipped", "saturated", "invalid", "lost", "lifted"];
 
-const OWN: [(&str, fn(usize, &Row) -> f64); 15] = [
+/// A column, and how its value is taken of a slot's number and row.
+type Own = (&'static str, fn(usize, &Row) -> f64);
+
+const OWN: [Own; 15] = [
     ("slot", |slot, _| slot as f64),
     ("time_s", |_, row| row.time_s),
     ("pad", |_, row| row.pad as f64),

@@ -127,18 +127,28 @@ fn wake(address: SocketAddr) {
     let _ = TcpStream::connect_timeout(&address, Duration::from_secs(1));
 }
 
+/// How often a free port is tried, which must be free at both addresses.
+const TRIALS: usize = 16;
+
 /// Binds a port at the addresses of this machine alone, or at one that others reach.
 fn listeners(port: u16, address: Option<IpAddr>) -> Result<Vec<TcpListener>> {
     if let Some(address) = address {
         return Ok(vec![bind(SocketAddr::new(address, port))?]);
     }
+    let trials = if port == 0 { TRIALS } else { 1 };
+    let found = (0..trials).map(|_| both(port)).find(|found| found.is_ok());
+    found.unwrap_or_else(|| both(port))
+}
+
+/// Binds a port at 127.0.0.1 and, where the machine has it, ::1: a browser may take localhost for either, and another
+/// program must not answer.
+fn both(port: u16) -> Result<Vec<TcpListener>> {
     let first = bind(SocketAddr::new(Ipv4Addr::LOCALHOST.into(), port))?;
     let port = first.local_addr()?.port();
-    // A browser may take localhost for ::1, where another program must not answer.
     match TcpListener::bind((Ipv6Addr::LOCALHOST, port)) {
         Ok(second) => Ok(vec![first, second]),
         Err(error) if error.kind() == ErrorKind::AddrInUse => Err(in_use(port)),
-        Err(_) => Ok(vec![first]), // no IPv6 here
+        Err(_) => Ok(vec![first]),
     }
 }
 

@@ -125,11 +125,10 @@ impl<'a> Scripts<'a> {
         if controlled {
             root.insert("control".into(), Value::Table(Table::new()));
         }
-        for pad in root.get_mut("pad").and_then(Value::as_array_mut).into_iter().flatten() {
-            let table = pad.as_table_mut();
-            table.map(|table| {
-                table.retain(|key, _| KEPT.contains(&key) && (controlled || key != "target_n"))
-            });
+        let kept = |key: &str| KEPT.contains(&key) && (controlled || key != "target_n");
+        let pads = root.get_mut("pad").and_then(Value::as_array_mut).into_iter().flatten();
+        for pad in pads.filter_map(Value::as_table_mut) {
+            pad.retain(|key, _| kept(key));
         }
         let scene = Scene::parse(&root.to_string(), "recorded.toml", &[])?;
         let pads = scene.cases[0].pad_names().len();

@@ -91,7 +91,7 @@ impl Client {
     }
 
     /// The next message in JSON for which this holds.
-    pub fn until(&mut self, holds: impl Fn(&Value) -> bool) -> Value {
+    pub fn until(&mut self, mut holds: impl FnMut(&Value) -> bool) -> Value {
         let begun = Instant::now();
         while begun.elapsed() < PATIENCE {
             if let Message::Text(text) = self.read() {

@@ -108,9 +108,7 @@ fn message(random: &mut Random, id: usize) -> Message {
             let mut bytes = text.into_bytes();
             let at = random.below(bytes.len());
             bytes[at] = random.below(128) as u8;
-            Message::text(
-                String::from_utf8(bytes).expect("ASCII changed stays UTF-8 or is replaced"),
-            )
+            Message::text(String::from_utf8_lossy(&bytes).into_owned())
         }
         _ => Message::text(text.replace(",}", "}")),
     }
@@ -148,7 +146,7 @@ fn ten_thousand_hostile_messages_end_nothing() {
     // The scene may have been replaced; it runs, and takes inputs.
     watcher.done("\"type\":\"open\",\"scene\":\"hockey\"");
     watcher.done("\"type\":\"set\",\"pad\":0,\"load_g\":50");
-    watcher.done("\"type\":\"step\",\"slots\":8");
+    watcher.done("\"type\":\"pace\",\"speed\":1");
     watcher.until(|value| value["type"] == "frames" && value["pads"]["x_mm"][3].is_number());
 }
 
