@@ -33,7 +33,7 @@ export class SlotPlot {
     const series = channels.map((name, k) => ({ ...shown(name), ...style(k) }));
     const times = codes[0].map((_, k) => (1e6 * k) / sample_rate_hz);
     this.plot = new window.uPlot({
-      width: this.box.clientWidth, height: HEIGHT, padding: [8, 8, 0, 0], legend: { show: false }, cursor: { y: false },
+      width: this.box.clientWidth, height: HEIGHT, padding: [8, 22, 0, 0], legend: { show: false }, cursor: { y: false },
       scales: { x: { time: false } }, series: [{}, ...series],
       axes: [{ ...axis(), size: 26, gap: 6, values: (plot, ticks) => ticks.map((tick) => `${tick} µs`) },
         { ...axis(), size: 64, gap: 4, values: (plot, ticks) => ticks.map(plain) }],

@@ -86,7 +86,7 @@ export class Strips {
   options(strip, last) {
     const times = (plot, ticks) => ticks.map((tick) => (last && tick >= 0 ? seconds(tick) : ''));
     return {
-      width: 400, height: PLOT_PIXELS, padding: [6, 4, last ? 0 : 4, 0], legend: { show: false },
+      width: 400, height: PLOT_PIXELS, padding: [6, 14, last ? 0 : 4, 0], legend: { show: false },
       cursor: { sync: { key: 'strips' }, y: false, drag: { x: true, y: false, setScale: false },
         bind: { dblclick: () => () => this.unzoom() } },
       scales: { x: { time: false }, y: { range: (plot, low, high) => range(strip, low, high) } },

@@ -389,7 +389,8 @@ def take_pictures(browser, url, folder):
             visit.page.locator("#take-slot").click()
             expect(visit.page.locator("#slot-channels button")).to_have_count(8)
             visit.page.wait_for_timeout(500)
-            visit.page.screenshot(path=folder / f"{name}-{scheme}.png", full_page=True)
+            # A browser that draws in software may need long for a page that never rests.
+            visit.page.screenshot(path=folder / f"{name}-{scheme}.png", full_page=True, timeout=4 * PATIENCE_MS)
 
 
 TESTS = [
