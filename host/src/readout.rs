@@ -43,6 +43,12 @@ pub struct Readout {
     placement: Placement,
 }
 
+/// Threads may share it.
+const _: fn() = || {
+    fn is_shared<T: Send + Sync>() {}
+    is_shared::<Readout>();
+};
+
 impl Readout {
     /// Of a core of the profile on a device, before its first frame.
     pub fn new(profile: &Profile, device: &DeviceCalibration) -> Self {

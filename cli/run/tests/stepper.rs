@@ -30,7 +30,7 @@ fn stepper(name: &str, set: &[(&str, &str)], options: Options) -> Stepper {
 }
 
 /// Rows to the bit: `Debug` prints a float so that it can be read back.
-fn text(rows: &[Row]) -> Vec<String> {
+fn text_of(rows: &[Row]) -> Vec<String> {
     rows.iter().map(|row| format!("{row:?}")).collect()
 }
 
@@ -55,7 +55,7 @@ fn check(
     rows.extend(stepper.finish().unwrap());
     let of = format!("{}, case {}, {}", scene.name, case.name(), fidelity.name());
     assert_eq!(rows.len(), case.slots, "{of}");
-    for (stepped, run) in text(&rows).iter().zip(text(&outcome.rows)) {
+    for (stepped, run) in text_of(&rows).iter().zip(text_of(&outcome.rows)) {
         assert_eq!(*stepped, run, "{of}");
     }
     assert_eq!(format!("{:?}", stepper.errors()), format!("{:?}", outcome.errors), "{of}");
@@ -93,7 +93,7 @@ fn stepping_goes_on_after_the_case_as_a_longer_case_does() {
         let mut long = stepper(name, &[("duration_s", long)], FIXED);
         let slots = long.case().slots;
         assert!(slots > 2 * short.case().slots);
-        assert_eq!(text(&step(&mut short, slots)), text(&step(&mut long, slots)), "{name}");
+        assert_eq!(text_of(&step(&mut short, slots)), text_of(&step(&mut long, slots)), "{name}");
         assert_eq!((short.slot(), short.time_s()), (slots, long.time_s()));
         assert!(short.time_s() > 2.0 * short.case().seconds());
     }
@@ -116,7 +116,7 @@ fn the_reference_runs_on_demand_and_changes_no_measurement() {
         assert!(with.iter().all(|row| row.reference.is_some()));
         assert!(without.iter().all(|row| row.reference.is_none()));
         let of: Vec<_> = with.into_iter().map(|row| Row { reference: None, ..row }).collect();
-        assert_eq!(text(&of), text(&without), "{name}");
+        assert_eq!(text_of(&of), text_of(&without), "{name}");
     }
 }
 
@@ -133,6 +133,42 @@ impl Draw {
     fn below(&mut self, end: usize) -> usize {
         (self.share() * end as f64) as usize
     }
+}
+
+/// Lines that begin at slots and end before the next one does.
+#[test]
+fn a_led_finger_gives_the_rows_of_the_scenes_timeline() {
+    let text = gallery::find("peg").expect("bundled");
+    let at = text.find("position_mm").expect("a pad");
+    let end = at + text[at..].find('\n').expect("a line");
+    let scene = |position: &str| {
+        let text = format!("{}position_mm = {position}{}", &text[..at], &text[end..]);
+        Scene::parse(&text, "peg.toml", &[]).unwrap_or_else(|error| panic!("{error}"))
+    };
+    let profile = inputs::profile("fast").unwrap();
+    let step = |position: &str, log: &[(usize, Input)]| {
+        let mut stepper = Stepper::new(scene(position).into(), 0, &profile, FIXED).unwrap();
+        let mut rows = Vec::new();
+        for slot in 0..1400 {
+            for (_, input) in log.iter().filter(|(at, _)| *at == slot) {
+                stepper.apply(input).unwrap();
+            }
+            rows.extend(stepper.step().unwrap());
+        }
+        text_of(&rows)
+    };
+    let clock = stepper("peg", &[], FIXED).case().clock;
+    let lines = [(30, 3.0, 0.05), (300, -12.0, 0.08), (700, -12.0, 0.01), (900, 1.5, 0.1)];
+    let (mut points, mut log) = (vec![[0.0, 0.5]], Vec::new());
+    for (slot, x_mm, within_s) in lines {
+        let from_s = clock.seconds(slot);
+        points.extend([[from_s, points[points.len() - 1][1]], [from_s + within_s, x_mm]]);
+        log.push((slot, Input::Lead { pad: 0, to_mm: [x_mm, 150.0], within_s }));
+    }
+    let timeline = format!("{{ timeline = {{ x_mm = {points:?}, y_mm = [[0, 150]] }} }}");
+    let (led, scripted) = (step("[0.5, 150]", &log), step(&timeline, &[]));
+    assert!(led == scripted);
+    assert!(led != step("[0.5, 150]", &[]), "no effect");
 }
 
 /// An input that some case takes, and some no case does.
@@ -186,9 +222,9 @@ fn a_log_of_random_inputs_replays_to_the_bit() {
             }
             replayed.extend(again.step().unwrap());
         }
-        let (rows, replayed) = (text(&rows), text(&replayed));
+        let (rows, replayed) = (text_of(&rows), text_of(&replayed));
         assert!(rows == replayed, "{name}");
-        assert_ne!(rows, text(&step(&mut stepper(name, &[], FIXED), 1000)), "{name}: no effect");
+        assert_ne!(rows, text_of(&step(&mut stepper(name, &[], FIXED), 1000)), "{name}: no effect");
     }
 }
 
@@ -231,7 +267,11 @@ fn wrong_inputs_are_refused_and_change_nothing() {
             }
             rows.extend(stepper.step().unwrap());
         }
-        assert_eq!(text(&rows), text(&step(&mut self::stepper(name, &[], FIXED), 150)), "{name}");
+        assert_eq!(
+            text_of(&rows),
+            text_of(&step(&mut self::stepper(name, &[], FIXED), 150)),
+            "{name}"
+        );
     }
 }
 
@@ -329,7 +369,8 @@ fn codes_are_those_of_the_last_slots_window() {
     let (window, channels) = (profile.slot.integrate as usize, profile.channels());
     let mut before = Vec::new();
     for _ in 0..5 {
-        (fixed.step().unwrap(), clock.step().unwrap());
+        fixed.step().unwrap();
+        clock.step().unwrap();
         let codes = fixed.codes().expect("samples");
         assert_eq!((codes.len(), codes), (window * channels, clock.codes().unwrap()));
         assert!(fixed.peak() > 0.0 && fixed.peak() <= 1.0 && codes != before);

@@ -21,7 +21,7 @@ fn lines(draw: &mut Draw, until_s: f64) -> Vec<([f64; 2], [f64; 2])> {
     while from_s < until_s {
         let at_s = from_s + draw.within(1e-3, 15e-3);
         lines.push(([from_s, at_s], [draw.within(-60.0, 60.0), draw.within(-40.0, 40.0)]));
-        let waits_s = if lines.len() % 2 == 0 { draw.within(1e-3, 8e-3) } else { 0.0 };
+        let waits_s = if lines.len().is_multiple_of(2) { draw.within(1e-3, 8e-3) } else { 0.0 };
         from_s = at_s + waits_s;
     }
     lines
