@@ -4,7 +4,8 @@
 //! Slot s serves pad s mod pads, or that part of a pad where each has slots of its own. Its sample n is taken at (s·slot_samples + n)/sample rate; the
 //! carrier starts afresh at n = 0. A pad is held for the whole slot as it is in the middle of the
 //! slot's window. Effects may have a state, which moves through all of time, whichever pad is
-//! served: ask for slots in rising order.
+//! served: ask for slots in rising order. Slots may go on after the case's end, without a limit:
+//! timelines hold their last value, sweeps begin again.
 
 mod calibrating;
 mod inputs;
@@ -219,7 +220,7 @@ impl Plant {
         self
     }
 
-    /// Finished slots of this case.
+    /// Finished slots of this case. Later ones may be asked for, too.
     pub fn slots(&self) -> usize {
         self.case.slots(&self.timing)
     }
