@@ -2,12 +2,12 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """Tests of the live page in a browser, against a running server or one that is started here.
 
-    python3 -m venv VENV && VENV/bin/pip install playwright axe-playwright-python
-    VENV/bin/python page.py --start BINARY [--pictures FOLDER] [NAME ...]
-    VENV/bin/python page.py --url http://127.0.0.1:8091/ [--pictures FOLDER] [NAME ...]
+    cli/live/tests/browser/run [--pictures FOLDER] [NAME ...]
+    page.py --start BINARY [--pictures FOLDER] [NAME ...]
+    page.py --url http://127.0.0.1:8091/ [--pictures FOLDER] [NAME ...]
 
-`BINARY` is the `hapticore` command. The browser is Debian's Chromium, or what the variable CHROMIUM names. NAMEs choose
-tests; without one all run. The last line counts them; a failure makes the exit status 1.
+`run` beside this file fetches what it needs and builds `BINARY`, the command `hapticore`. The browser is Debian's Chromium, or
+what the variable CHROMIUM names. NAMEs choose tests; without one all run. The last line counts them; a failure makes the exit status 1.
 """
 
 import argparse

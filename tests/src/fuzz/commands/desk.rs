@@ -194,10 +194,10 @@ impl Desk {
     }
 }
 
-/// A folder of the programs that commands of `sweep submit` take for given.
+/// A folder of the programs that commands of `sweep submit` take for given, and `timeout`, which ends servers.
 fn tools() -> tempfile::TempDir {
     let folder = tempfile::tempdir().expect("a folder");
-    for name in ["sh", "cat", "mkdir", "mv", "wc", "sed"] {
+    for name in ["sh", "cat", "mkdir", "mv", "wc", "sed", "timeout"] {
         let found = crate::tools::find(name).expect("a shell's programs");
         std::os::unix::fs::symlink(found, folder.path().join(name)).expect("a link");
     }

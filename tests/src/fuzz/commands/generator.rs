@@ -16,8 +16,12 @@ use super::values::{self, Values};
 const OFTEN: [(&str, u32); 4] = [("simulate", 8), ("replay", 5), ("hdl", 6), ("codes", 3)];
 
 /// What the parser takes only beside another option: subcommand, option, the other.
-const BESIDE: [(&str, &str, &str); 2] =
-    [("hdl", "clock_hz", "dac"), ("hdl", "full_scale_v", "dac")];
+const BESIDE: [(&str, &str, &str); 4] = [
+    ("hdl", "clock_hz", "dac"),
+    ("hdl", "full_scale_v", "dac"),
+    ("live", "listen", "token"),
+    ("live", "token", "listen"),
+];
 
 /// One value in this many is hostile.
 const HOSTILE: u32 = 12;

@@ -19,6 +19,9 @@ const SECONDS: u64 = 600;
 /// The most memory of a run, KiB.
 const KILOBYTES: u32 = 1 << 21;
 
+/// Ends a server as Ctrl-C does, after a second.
+const CTRL_C: &str = "timeout --preserve-status --signal=INT 1";
+
 /// How a run ended.
 #[derive(Debug)]
 pub struct Ended {
@@ -67,8 +70,10 @@ fn keeps_what_it_ran(line: &[OsString]) -> bool {
 
 fn execute(desk: &Desk, line: &[OsString], work: &Path, apart: &Path) -> Ended {
     let [output, log] = ["output", "log"].map(|name| apart.join(name));
+    let serves = line.first().is_some_and(|word| word == "live");
+    let until = if serves { CTRL_C } else { "" };
     let limits = format!(
-        "ulimit -t {PROCESSOR_SECONDS}; ulimit -v {KILOBYTES}; ulimit -c 0; exec \"$0\" \"$@\""
+        "ulimit -t {PROCESSOR_SECONDS}; ulimit -v {KILOBYTES}; ulimit -c 0; exec {until} \"$0\" \"$@\""
     );
     let mut command = Command::new("/bin/sh");
     command.args(["-c", &limits]).arg(&desk.program).args(line);
