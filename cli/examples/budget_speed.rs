@@ -71,7 +71,7 @@ fn once(name: &str, percent: &str, open: &Set) -> Result<([f64; 3], String)> {
     let scene = scene.within_budget(&inputs::timing(&profile))?;
     let choose = start.elapsed().as_secs_f64();
     let scene = Arc::new(scene);
-    let together = run(&[scene.clone()], &profile)?;
+    let together = run(std::slice::from_ref(&scene), &profile)?;
     let named = scene.cases.iter().map(named).collect::<Result<Vec<_>>>()?;
     let alone = run(&named.into_iter().map(Arc::new).collect::<Vec<_>>(), &profile)?;
     let levels: Vec<_> = scene.cases.iter().map(|case| words(case).join(", ")).collect();

@@ -77,13 +77,20 @@ impl<T: Copy + PartialEq> Held<T> {
     }
 
     /// The value at a moment; none before the first is set.
+    #[inline]
     pub fn at(&self, moment: Moment) -> Option<T> {
+        if self.updates.is_empty() {
+            return None;
+        }
         let past = self.updates.partition_point(|(time_s, _)| moment.is_past(*time_s));
         Some(self.updates[past.checked_sub(1)?].1)
     }
 
     /// When the value next changes, where the scene's own next changes at the time that `scenes_s` finds.
     pub fn next_event_s(&self, after_s: f64, scenes_s: impl FnOnce() -> f64) -> f64 {
+        if self.updates.is_empty() {
+            return scenes_s();
+        }
         let next = self.updates.partition_point(|(time_s, _)| *time_s <= after_s);
         let next_s = self.updates.get(next).map_or(f64::INFINITY, |(time_s, _)| *time_s);
         if next == 0 { next_s.min(scenes_s()) } else { next_s }
@@ -184,13 +191,20 @@ impl FingerPath {
     }
 
     /// Where the finger is at a time; none where the scene has it.
+    #[inline]
     pub fn at(&self, time_s: f64) -> Option<[f64; 2]> {
+        if self.lines.is_empty() {
+            return None;
+        }
         let begun = self.lines.partition_point(|line| line.from_s <= time_s);
         self.lines[begun.checked_sub(1)?].at(time_s)
     }
 
     /// When the finger next turns, where the scene's own next turns at the time that `scenes_s` finds.
     pub fn next_event_s(&self, after_s: f64, scenes_s: impl FnOnce() -> f64) -> f64 {
+        if self.lines.is_empty() {
+            return scenes_s();
+        }
         let next_from_s =
             |n: usize| self.lines.get(n + 1).map_or(f64::INFINITY, |next| next.from_s);
         let events = self.lines.iter().enumerate().flat_map(|(n, line)| {

@@ -105,6 +105,11 @@ impl<V: Interpretation> FixedSimulation<V> {
         }
     }
 
+    /// The pads that it serves.
+    pub(super) fn pads(&self) -> usize {
+        self.pads
+    }
+
     /// The samples of a window.
     pub fn window(&self) -> usize {
         self.local.len()

@@ -120,7 +120,6 @@ pub struct FixedLoop {
     drives: Drives,
     state: State<Drives, i64>,
     idle: drives::Inputs<i64>,
-    pads: usize,
 }
 
 impl FixedLoop {
@@ -137,7 +136,7 @@ impl FixedLoop {
         drives.hurry();
         let (state, idle) = (drives.reset(), idle(&drives, tuning));
         let core = FixedSimulation::new(profile, calibration);
-        let mut of = FixedLoop { core, drives, state, idle, pads: profile.pads as usize };
+        let mut of = FixedLoop { core, drives, state, idle };
         of.tick();
         for write in curve_writes(of.drives.inputs().tuning, tuning) {
             of.clock(drives::Inputs { tuning: write, ..of.idle });
@@ -155,7 +154,7 @@ impl FixedLoop {
     /// # Panics
     /// Where there is no such pad; the loop stays as it was.
     pub fn set_target(&mut self, pad: usize, newtons: f64) {
-        assert_pad(pad, self.pads);
+        assert_pad(pad, self.core.pads());
         let target = target_write(&self.drives.inputs().target, pad, newtons);
         self.clock(drives::Inputs { target, ..self.idle });
     }
@@ -165,7 +164,7 @@ impl FixedLoop {
     /// # Panics
     /// As [`FixedLoop::set_target`].
     pub fn set_surface(&mut self, pad: usize, surface: Surface) {
-        assert_pad(pad, self.pads);
+        assert_pad(pad, self.core.pads());
         let wall = surface_write(&self.drives.inputs().wall, self.idle.wall, pad, surface);
         self.clock(drives::Inputs { wall, ..self.idle });
     }
