@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The server: a thread for each connection, another to write to a WebSocket, and the loop ([`Hub`]) on the caller's.
 
-use std::io::{self, ErrorKind, Read, Write};
-use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, Shutdown, SocketAddr, TcpListener, TcpStream};
+mod bind;
+mod talk;
+
+use std::io::Write;
+use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr, TcpListener, TcpStream};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use std::sync::mpsc::SyncSender;
@@ -10,21 +13,17 @@ use std::thread;
 use std::time::Duration;
 
 use anyhow::{Result, anyhow};
-use tungstenite::protocol::{Role, WebSocket, WebSocketConfig};
-use tungstenite::{Error, Message as Received};
 
-use crate::client::{Outbox, text_frame};
 use crate::files;
 use crate::http::{self, Guard, Head, PATIENCE};
-use crate::hub::{ClientId, Hub, Message};
-use crate::protocol::{Answer, BadRequest, LONGEST, Opening, Request};
+use crate::hub::{Hub, Message};
+use crate::protocol::Opening;
 use crate::source::Setup;
+use bind::listeners;
+use talk::talk;
 
 /// The most connections at a time.
 const CONNECTIONS: usize = 64;
-
-/// A message of this size ends its connection, bytes; a shorter one that is too long gets an error.
-const ENDS: usize = 1 << 20;
 
 /// What a server is made of.
 #[derive(Debug, Clone)]
@@ -127,42 +126,6 @@ fn wake(address: SocketAddr) {
     let _ = TcpStream::connect_timeout(&address, Duration::from_secs(1));
 }
 
-/// How often a free port is tried, which must be free at both addresses.
-const TRIALS: usize = 16;
-
-/// Binds a port at the addresses of this machine alone, or at one that others reach.
-fn listeners(port: u16, address: Option<IpAddr>) -> Result<Vec<TcpListener>> {
-    if let Some(address) = address {
-        return Ok(vec![bind(SocketAddr::new(address, port))?]);
-    }
-    let trials = if port == 0 { TRIALS } else { 1 };
-    let found = (0..trials).map(|_| both(port)).find(|found| found.is_ok());
-    found.unwrap_or_else(|| both(port))
-}
-
-/// Binds a port at 127.0.0.1 and, where the machine has it, ::1: a browser may take localhost for either, and another
-/// program must not answer.
-fn both(port: u16) -> Result<Vec<TcpListener>> {
-    let first = bind(SocketAddr::new(Ipv4Addr::LOCALHOST.into(), port))?;
-    let port = first.local_addr()?.port();
-    match TcpListener::bind((Ipv6Addr::LOCALHOST, port)) {
-        Ok(second) => Ok(vec![first, second]),
-        Err(error) if error.kind() == ErrorKind::AddrInUse => Err(in_use(port)),
-        Err(_) => Ok(vec![first]),
-    }
-}
-
-fn bind(address: SocketAddr) -> Result<TcpListener> {
-    TcpListener::bind(address).map_err(|error| match error.kind() {
-        ErrorKind::AddrInUse => in_use(address.port()),
-        _ => anyhow::Error::from(error).context(format!("address {address}")),
-    })
-}
-
-fn in_use(port: u16) -> anyhow::Error {
-    anyhow!("port {port} is in use; --port 0 takes a free one")
-}
-
 fn accept(listener: &TcpListener, shared: &Arc<Shared>) {
     while !shared.ends.load(Ordering::Relaxed) {
         match listener.accept() {
@@ -226,101 +189,5 @@ fn serve(mut stream: TcpStream, shared: &Arc<Shared>) -> Result<()> {
     match files::find(&head.path) {
         Some(file) => Ok(http::respond(&mut stream, "200 OK", file.kind, file.text.as_bytes())?),
         None => Ok(http::refuse(&mut stream, &("404 Not Found", "no such file".into()))?),
-    }
-}
-
-/// Takes a client's requests until it leaves; another thread writes what it is sent.
-fn talk(stream: TcpStream, rest: Vec<u8>, shared: &Arc<Shared>) -> Result<()> {
-    let client = shared.next_client.fetch_add(1, Ordering::Relaxed);
-    let outbox = Arc::new(Outbox::default());
-    stream.set_read_timeout(None)?;
-    let (writing, to_write) = (stream.try_clone()?, outbox.clone());
-    let writer = thread::Builder::new().name("write".into());
-    let writer = writer.spawn(move || write(writing, &to_write))?;
-    let hub = &shared.hub;
-    if hub.send(Message::Join(client, outbox.clone())).is_ok() {
-        let duplex = Duplex { stream, outbox: outbox.clone(), unsent: Vec::new() };
-        listen(duplex, rest, (client, &outbox), hub);
-        let _ = hub.send(Message::Leave(client));
-    }
-    outbox.close();
-    writer.join().map_err(|_| anyhow!("the writer has panicked"))
-}
-
-fn write(mut stream: TcpStream, outbox: &Outbox) {
-    while let Some(bytes) = outbox.next() {
-        if stream.write_all(&bytes).is_err() {
-            break;
-        }
-    }
-    outbox.close();
-    let _ = stream.shutdown(Shutdown::Both);
-}
-
-/// Takes requests until the connection ends.
-fn listen(
-    duplex: Duplex,
-    rest: Vec<u8>,
-    (client, outbox): (ClientId, &Outbox),
-    hub: &SyncSender<Message>,
-) {
-    let config = WebSocketConfig::default()
-        .read_buffer_size(8 << 10)
-        .write_buffer_size(0)
-        .max_message_size(Some(ENDS))
-        .max_frame_size(Some(ENDS));
-    let mut socket = WebSocket::from_partially_read(duplex, rest, Role::Server, Some(config));
-    let complain = |id, message| outbox.answer(text_frame(&Answer::Error { id, message }.text()));
-    loop {
-        let text = match socket.read() {
-            Ok(Received::Text(text)) => text,
-            Ok(Received::Binary(_)) => {
-                complain(None, "message: expected JSON text, got a binary message".into());
-                continue;
-            }
-            Ok(_) => continue,
-            Err(Error::Capacity(_)) => {
-                let message =
-                    format!("message: expected at most {LONGEST} bytes; connection closed");
-                return complain(None, message);
-            }
-            Err(_) => return,
-        };
-        match Request::parse(&text) {
-            Ok(request) => {
-                if hub.send(Message::Request(client, request)).is_err() {
-                    return;
-                }
-            }
-            Err(BadRequest { id, message }) => complain(id, message),
-        }
-    }
-}
-
-/// Reads from a socket; what a WebSocket answers by itself, pongs and its close, is written by the thread that writes
-/// all else.
-struct Duplex {
-    stream: TcpStream,
-    outbox: Arc<Outbox>,
-    unsent: Vec<u8>,
-}
-
-impl Read for Duplex {
-    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
-        self.stream.read(buffer)
-    }
-}
-
-impl Write for Duplex {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.unsent.extend_from_slice(bytes);
-        Ok(bytes.len())
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        if !self.unsent.is_empty() {
-            self.outbox.answer(std::mem::take(&mut self.unsent).into());
-        }
-        Ok(())
     }
 }
