@@ -277,7 +277,7 @@ pub struct LiveArgs {
     #[arg(long)]
     pub open: bool,
     /// Device time by wall time: 0.1 is ten times slower, 0 begins paused
-    #[arg(long, value_name = "FACTOR", default_value_t = 1.0)]
+    #[arg(long, value_name = "FACTOR", default_value_t = 1.0, allow_negative_numbers = true)]
     pub speed: f64,
     /// Let other machines reach the page at this address of this machine; 0.0.0.0 for all
     #[arg(long, value_name = "ADDRESS", requires = "token")]

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Command lines made from the command's declaration (docs/fuzzing.md): 200 here, as many as `LINES` says by
+//! Command lines made from the command's declaration (docs/fuzzing.md): 300 here, as many as `LINES` says by
 //! `fuzz/lines`.
 
 use std::ffi::OsStr;
@@ -12,7 +12,7 @@ use hapticore_tests::fuzz::commands::{Desk, Ended, Generator, Tally, run};
 use rayon::prelude::*;
 
 /// Lines where the environment's `LINES` does not say how many.
-const LINES: usize = 200;
+const LINES: usize = 300;
 
 /// Lines that are made before they are run together.
 const AT_A_TIME: usize = 64;

@@ -52,7 +52,7 @@ pub fn run(desk: &Desk, line: &[OsString]) -> Ended {
     let mut ended = execute(desk, line, &work, &apart);
     let after = files(&work);
     let new: Vec<_> = after.iter().filter(|path| !before.contains(path)).collect();
-    let mut findings = about_the_end(&ended);
+    let mut findings = about_the_end(&ended, interrupted(line));
     if findings.is_empty() {
         findings.extend(new.iter().filter_map(|path| unfinished(path)));
         if ended.status == Some(2) && !keeps_what_it_ran(line) {
@@ -63,6 +63,11 @@ pub fn run(desk: &Desk, line: &[OsString]) -> Ended {
     ended
 }
 
+/// The status of a server that Ctrl-C ends before it serves.
+fn interrupted(line: &[OsString]) -> Option<i32> {
+    line.first().is_some_and(|word| word == "live").then_some(130)
+}
+
 /// A sweep keeps its store: what was run is not run again.
 fn keeps_what_it_ran(line: &[OsString]) -> bool {
     line.first().is_some_and(|word| word == "sweep")
@@ -70,8 +75,7 @@ fn keeps_what_it_ran(line: &[OsString]) -> bool {
 
 fn execute(desk: &Desk, line: &[OsString], work: &Path, apart: &Path) -> Ended {
     let [output, log] = ["output", "log"].map(|name| apart.join(name));
-    let serves = line.first().is_some_and(|word| word == "live");
-    let until = if serves { CTRL_C } else { "" };
+    let until = if interrupted(line).is_some() { CTRL_C } else { "" };
     let limits = format!(
         "ulimit -t {PROCESSOR_SECONDS}; ulimit -v {KILOBYTES}; ulimit -c 0; exec {until} \"$0\" \"$@\""
     );
@@ -111,13 +115,14 @@ fn input(desk: &Desk, line: &[OsString]) -> Stdio {
     File::open(path).map_or(Stdio::null(), Stdio::from)
 }
 
-fn about_the_end(ended: &Ended) -> Vec<String> {
+fn about_the_end(ended: &Ended, interrupted: Option<i32>) -> Vec<String> {
     let mut findings = Vec::new();
     if ended.log.contains("panicked at") {
         findings.push(format!("a panic: {}", ended.log.trim()));
     }
     match ended.status {
         Some(0..=2) => (),
+        status if status == interrupted => (),
         Some(status) => findings.push(format!("exit status {status}: {}", ended.log.trim())),
         None => findings.push(format!("ended by a signal after {:?}", ended.took)),
     }
