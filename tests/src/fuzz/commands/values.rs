@@ -119,12 +119,17 @@ impl<'a> Values<'a> {
                 one(rng, &["1", "2", "3", "4", "5", "8", "16", "18", "24", "32", "33", "256"])
             }
             (_, "bode") => one(rng, &["0.3", "0.05", "1e-9", "100", "1e300", "5e-324"]),
-            (_, "clock_hz") => one_of(rng, "25000000 12000000 1000000 200000000 999999 0 1e6 -1"),
+            (_, "clock_hz") => {
+                one_of(rng, "25000000 12000000 1000000 200000000 48000000 25000000 999999 1e6")
+            }
             ("hdl", "full_scale_v") => one_of(rng, "500 100 1 65535 0"),
             (_, "port") => one_of(rng, "0 0 0 8091 65535 65536 -1"),
             (_, "speed") => one_of(rng, "1 0.1 0 100 1e-300 -1 nan"),
             (_, "listen") => one_of(rng, "127.0.0.1 ::1 0.0.0.0 192.0.2.1 localhost"),
-            (_, "token") => one_of(rng, "0123456789abcdef a b&c"),
+            (_, "token") => one_of(
+                rng,
+                "0123456789abcdef long-enough_to-be-one 0123456789abcde& A-token-of-25-characters short",
+            ),
             (_, "full_scale_v") => one_of(rng, "10 5 1 0.5 1e-300 1e300 5e-324 0 nan"),
             _ => alternatives(rng, of, argument),
         }
