@@ -176,12 +176,21 @@ impl FixedLoop {
         frame: impl FnOnce(&mut FixedSimulation<i64>) -> Frame,
     ) -> (Frame, Option<Drive>) {
         let frame = frame(&mut self.core);
+        let drive = self.drive();
+        self.place(&frame);
+        (frame, drive)
+    }
+
+    /// The drive word of the last estimate. Not inlined, so that it is compiled here and not in each
+    /// crate that calls [`FixedLoop::slot`].
+    #[inline(never)]
+    fn drive(&mut self) -> Option<Drive> {
         let prompt = self.core.prompt().expect("a core with a controller gives an estimate");
         let mut inputs = signals::<drives::Inputs, i64>(self.idle, self.drives.inputs());
         inputs.estimate = prompt;
         let mut drive = None;
         for _ in 0..=self.drives.latency() {
-            let outputs = self.drives.clock_apart(&mut self.state, inputs);
+            let outputs = self.drives.clock_apart(&mut self.state, &inputs);
             inputs.estimate.prompt = bit(false);
             if outputs.drive.drive_valid.value != 0 {
                 drive = Some(given(outputs.drive, outputs.faults));
@@ -189,8 +198,7 @@ impl FixedLoop {
                 break; // Whether the drive is zero has been written, too.
             }
         }
-        self.place(&frame);
-        (frame, drive)
+        drive
     }
 
     /// The place of a valid frame.
@@ -215,7 +223,7 @@ impl FixedLoop {
 
     fn clock(&mut self, inputs: drives::Inputs<i64>) {
         let inputs = signals::<drives::Inputs, i64>(inputs, self.drives.inputs());
-        self.drives.clock_apart(&mut self.state, inputs);
+        self.drives.clock_apart(&mut self.state, &inputs);
     }
 }
 
