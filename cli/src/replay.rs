@@ -14,8 +14,8 @@ use hapticore_run::capture::{self, Adc, BROKEN, Cut, Described, Shape, Slots, So
 use hapticore_run::engine::{Signals, Slot};
 use hapticore_run::haptic::Meter;
 use hapticore_run::record::{Provenance, Record, Row, Rows};
+use hapticore_run::session::Options;
 use hapticore_run::session::Session;
-use hapticore_run::stepper::Options;
 use hapticore_run::wiring::Wiring;
 use hapticore_run::{calibrate, inputs, interrupt, silent};
 

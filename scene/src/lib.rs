@@ -59,7 +59,7 @@
 //! | --- | --- |
 //! | `error`, `format` | messages with file, line and key; TOML as a tree that knows which keys were read |
 //! | `terminals`, `device`, `ratios` | where the terminals are, sizes and full scales, signs of the ratios |
-//! | `stimulus`, `trajectory`, `pad`, `pad_inputs`, `drive` | what a pad does over a sweep or over time, or is made to do |
+//! | `stimulus`, `trajectory`, `pad`, `pad_inputs`, `input_limits`, `drive` | what a pad does over a sweep or over time, or is made to do |
 //! | `effects` | one file or folder for each effect; `effects::EFFECTS` is the list of all |
 //! | `case`, `scene`, `criterion`, `quantity` | a scene as it is read |
 //! | `plant`, `budget`, `nominal` | a case at work; errors of the fidelity levels; the sheet as its host knows it |
@@ -78,6 +78,7 @@ mod error;
 mod few;
 mod format;
 pub mod gallery;
+mod input_limits;
 mod nominal;
 mod pad;
 mod pad_inputs;
@@ -102,11 +103,13 @@ pub use case::Case;
 pub use control::{ControlLaw, ControlPlan, DriveCurve, ForceEstimate};
 pub use criterion::{Criterion, Measure, Per, Where};
 pub use device::Device;
-pub use drive::DriveError;
 pub use effects::EffectCost;
 pub use error::{Place, SceneError};
+pub use input_limits::DriveError;
 pub use nominal::NominalSheet;
 pub use num_complex::Complex64 as Complex;
+pub use pad::DEFAULT_LOAD_G;
+pub use pad_inputs::{FingerPath, Line};
 pub use plant::{Plant, Slot};
 pub use quantity::Quantity;
 pub use ratios::signs_by_place;

@@ -3,17 +3,20 @@
 //! fastest, then the load, the haptic voltage, the capacitance and the eccentricity.
 
 use crate::device::{Device, EPSILON_0};
-use crate::drive::{LOAD, PUSH, VOLTAGE};
 use crate::effects::pad::{FilmChange, Pad};
 use crate::effects::sheet::ideal::ideal_split;
 use crate::error::SceneError;
 use crate::format::{Limits, Table};
+use crate::input_limits::{LOAD, PUSH, VOLTAGE};
 use crate::stimulus::{Moment, Stimulus, next_multiple};
 use crate::trajectory::{self, SLACK_MM, Trajectory};
 use crate::truth::Setpoint;
 
 /// Capacitance of a pad that neither names one nor has a gap, pF: 5 kΩ at 100 kHz.
 const CAPACITANCE_PF: f64 = 318.0;
+
+/// The load on a pad that names none, g.
+pub const DEFAULT_LOAD_G: f64 = 20.0;
 
 /// What one pad does: its trajectory and its stimuli.
 #[derive(Clone, Debug)]
@@ -71,7 +74,7 @@ impl PadPlan {
             has_finger: has.finger,
             name: table.text("name")?.unwrap_or_else(|| format!("pad {index}")),
             trajectory: Trajectory::read(table, device)?,
-            load_g: stimulus("load_g", LOAD, 20.0)?,
+            load_g: stimulus("load_g", LOAD, DEFAULT_LOAD_G)?,
             haptic_v_rms: stimulus("haptic_v_rms", VOLTAGE, 0.0)?,
             capacitance_pf: stimulus("capacitance_pf", Limits::above(0.0, 1e6), CAPACITANCE_PF)?,
         })

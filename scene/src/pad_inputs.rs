@@ -10,7 +10,7 @@
 
 use std::collections::VecDeque;
 
-use crate::drive::DriveError;
+use crate::input_limits::DriveError;
 use crate::stimulus::Moment;
 
 /// What has been set at one pad.
@@ -99,20 +99,24 @@ impl<T: Copy + PartialEq> Held<T> {
 
 /// Lines on which a finger is led.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct FingerPath {
+pub struct FingerPath {
     /// In the order of time. Each holds until the next begins.
     lines: VecDeque<Line>,
 }
 
 /// A line from one place to another, reached at a later time.
 #[derive(Clone, Copy, Debug)]
-struct Line {
-    from_s: f64,
-    at_s: f64,
-    from_mm: [f64; 2],
-    to_mm: [f64; 2],
+pub struct Line {
+    /// When it begins, s.
+    pub from_s: f64,
+    /// When the finger arrives, s.
+    pub at_s: f64,
+    /// Where it begins, mm from the sheet's centre.
+    pub from_mm: [f64; 2],
+    /// Where it ends, mm.
+    pub to_mm: [f64; 2],
     /// At its end the finger stays; else it follows the scene.
-    stays: bool,
+    pub stays: bool,
     /// The finger's velocity changes where the line begins.
     is_kink: bool,
 }
@@ -153,7 +157,7 @@ impl Line {
 
 impl FingerPath {
     /// Whether a line can begin at `from_s` and end at `at_s`.
-    pub fn check(&self, from_s: f64, at_s: f64, now_s: f64) -> Result<(), DriveError> {
+    pub(crate) fn check(&self, from_s: f64, at_s: f64, now_s: f64) -> Result<(), DriveError> {
         let earliest_s = self.lines.back().map_or(now_s, |line| line.from_s.max(now_s));
         check_time(from_s, earliest_s)?;
         let is_later = at_s > from_s && at_s.is_finite();
@@ -161,7 +165,7 @@ impl FingerPath {
     }
 
     /// From `from_s`, when the finger is at `from_mm`, it goes to `to_mm`, where it is at `at_s`; then it
-    /// stays there or follows the scene. The times have been checked.
+    /// stays there or follows the scene. `from_s` is not before the last line's, and `at_s` is later.
     pub fn go(
         &mut self,
         [from_s, at_s]: [f64; 2],
@@ -200,8 +204,13 @@ impl FingerPath {
         self.lines[begun.checked_sub(1)?].at(time_s)
     }
 
+    /// The lines, in the order of time.
+    pub fn lines(&self) -> impl ExactSizeIterator<Item = &Line> {
+        self.lines.iter()
+    }
+
     /// When the finger next turns, where the scene's own next turns at the time that `scenes_s` finds.
-    pub fn next_event_s(&self, after_s: f64, scenes_s: impl FnOnce() -> f64) -> f64 {
+    pub(crate) fn next_event_s(&self, after_s: f64, scenes_s: impl FnOnce() -> f64) -> f64 {
         if self.lines.is_empty() {
             return scenes_s();
         }

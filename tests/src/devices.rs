@@ -12,8 +12,8 @@ use hapticore_run::engine::Fidelity;
 use hapticore_run::engine::{Signals, Slot};
 use hapticore_run::maker::Maker;
 use hapticore_run::record::{Quantities, Row};
+use hapticore_run::session::Options;
 use hapticore_run::session::Session;
-use hapticore_run::stepper::Options;
 use hapticore_scene::Scene;
 
 /// A sheet with terminals.

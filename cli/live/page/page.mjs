@@ -85,7 +85,8 @@ function accept(message) {
 function acceptHello(hello) {
   if (hello.protocol !== PROTOCOL) notice(`The source speaks protocol ${hello.protocol}, this page ${PROTOCOL}: load the page again`);
   model.acceptHello(hello);
-  if (opened.scene !== hello.scene) opened = { scene: hello.scene, set: {} };
+  if (!isOwn(hello)) opened = { scene: hello.scene, case: hello.case_index || null, set: hello.set };
+  else if (!opened.preset) opened.case = hello.case_index || null;
   document.body.className = `${hello.truth ? '' : 'no-truth'} ${hello.hand ? '' : 'no-hand'}`;
   document.title = `${hello.scene} – hapticore live`;
   const scenes = new Set([hello.scene, ...hello.scenes]);
@@ -105,6 +106,13 @@ function acceptHello(hello) {
   choose(model.pad);
   checkAge();
   openAsked(hello);
+}
+
+/** Whether this page has opened what is open; else another client has, or the command line. */
+function isOwn({ presets, scene, set }) {
+  const preset = presets.find(({ name }) => name === opened.preset);
+  const text = (of) => JSON.stringify(Object.entries(of).map(([key, value]) => [key, String(value)]).sort());
+  return opened.scene === scene && text({ ...preset?.set, ...opened.set }) === text(set);
 }
 
 /** Presets, hint and warnings. */

@@ -28,14 +28,10 @@ const SETTINGS: [(&str, &str, &str, [f64; 2]); 8] = [
 ///
 /// # Errors
 /// A case that is no scene of its own.
-pub fn hello(
-    opening: &Opening,
-    scene: &Scene,
-    index: usize,
-    fidelity: Fidelity,
-    stepper: &Stepper,
-) -> Result<Hello> {
-    let (case, plant, of) = (stepper.case(), stepper.plant(), &scene.cases[index]);
+pub fn hello(opening: &Opening, fidelity: Fidelity, stepper: &Stepper) -> Result<Hello> {
+    let (case, plant) = (stepper.case(), stepper.plant());
+    let (scene, index) = (&*case.scene, case.index);
+    let of = &scene.cases[index];
     let device = plant.device();
     let document: toml::Table = of.document.parse().context("the case as a scene")?;
     let set = case.plant()?.truth(0).set;
@@ -54,6 +50,7 @@ pub fn hello(
         cases: scene.cases.iter().map(|case| case.name.clone()).collect(),
         profile: case.profile.name.clone(),
         fidelity: fidelity.name().to_string(),
+        set: opening.set.clone(),
         command: command(opening, scene, index, fidelity),
         warnings: of.doubts.clone(),
         slot_us: 1e6 * case.clock.seconds(1),
@@ -179,18 +176,6 @@ fn limits(scene: &Scene, index: usize, stepper: &Stepper) -> Limits {
         force_n: limit(Quantity::ForceN),
         rail_v: stepper.case().plan().map(|plan| plan.rail_v),
     }
-}
-
-/// The largest sample of each channel in the last slot, as a fraction of full scale; empty where the scene has
-/// phasors alone.
-pub fn amplitudes(stepper: &Stepper) -> Vec<f64> {
-    let channels = stepper.case().profile.channels();
-    let lsb = stepper.case().profile.formats.adc.lsb();
-    let Some(codes) = stepper.codes() else { return Vec::new() };
-    let largest = |channel: usize| {
-        codes.iter().skip(channel).step_by(channels).map(|code| code.unsigned_abs()).max()
-    };
-    (0..channels).map(|channel| f64::from(largest(channel).unwrap_or(0)) * lsb).collect()
 }
 
 /// The ADC codes of the last slot.

@@ -20,12 +20,13 @@ use crate::client::{Bytes, Outbox, text_frame};
 use crate::pace::{Histogram, Pace};
 use crate::protocol::{Answer, Opening, Request, Status};
 use crate::rows::Subscriber;
-use crate::source::{Setup, Source};
+use crate::setup::Setup;
+use crate::source::Source;
 
 /// How often the loop wakes up at most, s.
 const TICK_S: f64 = 0.004;
-/// How often frames are sent at most, s; timers may be early by half a millisecond.
-const FRAME_S: f64 = 1.0 / 60.0 - 0.0005;
+/// How often frames are sent, s: 60 times a second.
+const FRAME_S: f64 = 1.0 / 60.0;
 /// How often the status is sent, s.
 const STATUS_S: f64 = 1.0;
 /// How long slots are run before requests are looked at, s.
@@ -232,7 +233,9 @@ impl Hub {
     }
 
     fn send_frames(&mut self, now_s: f64) {
-        (self.is_new, self.framed_s) = (false, now_s);
+        self.is_new = false;
+        // A schedule, since the loop wakes up some milliseconds after a frame is due.
+        self.framed_s = (self.framed_s + FRAME_S).max(now_s - FRAME_S);
         let bytes = frames(&*self.source);
         for client in self.clients.values_mut() {
             client.outbox.frame(bytes.clone());

@@ -3,7 +3,7 @@
 //!
 //! | module | does |
 //! | --- | --- |
-//! | [`source`], [`simulated`], [`describe`] | what is watched and led: a scene that is simulated, and what a client must know of it |
+//! | [`source`], [`simulated`], [`setup`], [`describe`] | what is watched and led: a scene that is simulated, how it is set up, and what a client must know of it |
 //! | [`pace`] | device time against wall time |
 //! | [`hub`] | the loop: requests in, frames out, one source for all clients |
 //! | [`protocol`] | the messages |
@@ -24,6 +24,7 @@ pub mod protocol;
 pub mod record;
 pub mod rows;
 pub mod server;
+pub mod setup;
 pub mod simulated;
 pub mod source;
 pub mod state;

@@ -6,8 +6,8 @@
 
 use hapticore_run::record::{Driven, Quantities, Row, Truth};
 
-use crate::protocol::{Event, PadRow};
-use crate::state::{Signs, State, Watch};
+use crate::protocol::{Event, PadRow, State};
+use crate::state::{Signs, Watch};
 
 /// Parts of a pad whose last one alone brakes.
 const STRIPS: usize = 3;

@@ -1,23 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Scenes with something to try: bundled scenes with keys set, and what to do with them.
 
-use serde::Serialize;
-
-use crate::protocol::Opening;
-
-/// A scene with something to try.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Preset {
-    /// In an address: `?preset=wall`.
-    pub name: &'static str,
-    /// On its button.
-    pub label: &'static str,
-    /// What to do, and what shows.
-    pub hint: &'static str,
-    /// The scene, its keys and its case.
-    #[serde(flatten)]
-    pub opening: Opening,
-}
+use crate::protocol::{Opening, Preset};
 
 /// Right of the wall, after a stir from which the core learns what the direction reads in free air.
 const STIRRED: &str = "{ timeline = { x_mm = [[0, 8], [0.1, 11], [0.2, 5], [0.3, 11], [0.4, 8]], y_mm = [[0, PLACE]] } }";

@@ -34,11 +34,13 @@
 
 mod columns;
 mod request;
+mod state;
 
 use serde::{Deserialize, Serialize, Serializer};
 
 pub use columns::{COLUMNS, Column, PadRow};
 pub use request::{BadRequest, Request};
+pub use state::State;
 
 /// The version of the protocol that a server speaks.
 pub const VERSION: u32 = 1;
@@ -280,6 +282,9 @@ pub struct Hello {
     pub profile: String,
     /// `float`, `fixed` or `clock`.
     pub fidelity: String,
+    /// What the scene was opened with: keys and values as in `--set KEY=VALUE`.
+    #[serde(serialize_with = "as_map")]
+    pub set: Vec<(String, String)>,
     /// The command that runs the same scene without a page.
     pub command: String,
     /// What its user must know before using the results.
@@ -317,7 +322,21 @@ pub struct Hello {
     /// Names of the bundled scenes.
     pub scenes: Vec<&'static str>,
     /// Scenes with something to try.
-    pub presets: Vec<crate::presets::Preset>,
+    pub presets: Vec<Preset>,
+}
+
+/// A scene with something to try.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Preset {
+    /// In an address: `?preset=wall`.
+    pub name: &'static str,
+    /// On its button.
+    pub label: &'static str,
+    /// What to do, and what shows.
+    pub hint: &'static str,
+    /// The scene, its keys and its case.
+    #[serde(flatten)]
+    pub opening: Opening,
 }
 
 /// A pad.
@@ -438,7 +457,7 @@ pub struct Event {
     /// Pad number, from 0.
     pub pad: usize,
     /// The state that it is in now.
-    pub state: crate::state::State,
+    pub state: State,
     /// What happened, in words.
     pub what: String,
 }

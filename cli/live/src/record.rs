@@ -9,7 +9,9 @@ mod script;
 mod timeline;
 
 use hapticore_host::SlotClock;
+use hapticore_run::control::plant::FAR_MM;
 use hapticore_run::stepper::{Input, RELEASE_S, Stepper};
+use hapticore_scene::DEFAULT_LOAD_G;
 use serde::Serialize;
 use toml::{Table, Value};
 
@@ -280,15 +282,12 @@ type Written = Result<Vec<(String, Value)>, String>;
 
 /// The keys of a pad that hold values, and what they are in a scene that leaves them out.
 const DEFAULTS: [(&str, f64); 5] = [
-    ("load_g", 20.0),
+    ("load_g", DEFAULT_LOAD_G),
     ("haptic_v_rms", 0.0),
     ("target_n", 0.0),
     ("push_x_n", 0.0),
     ("push_y_n", 0.0),
 ];
-
-/// Beyond what a pad reaches, mm: the place of a wall that is off.
-const FAR_MM: f64 = 1e4;
 
 /// The case's name in a scene that has others before it.
 const LIVE: &str = "live";

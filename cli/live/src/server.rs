@@ -18,7 +18,7 @@ use crate::files;
 use crate::http::{self, Guard, Head, PATIENCE};
 use crate::hub::{Hub, Message};
 use crate::protocol::Opening;
-use crate::source::Setup;
+use crate::setup::Setup;
 use bind::listeners;
 use talk::talk;
 

@@ -4,7 +4,6 @@
 use anyhow::Result;
 use hapticore_run::engine::Fidelity;
 use hapticore_run::stepper::{Input, Stepper};
-use hapticore_scene::Scene;
 
 use crate::describe;
 use crate::pads::{Pads, Surface};
@@ -34,14 +33,8 @@ impl Simulated {
     ///
     /// # Errors
     /// A case that is no scene of its own.
-    pub fn new(
-        opening: Opening,
-        scene: &Scene,
-        index: usize,
-        fidelity: Fidelity,
-        stepper: Stepper,
-    ) -> Result<Simulated> {
-        let hello = describe::hello(&opening, scene, index, fidelity, &stepper)?;
+    pub fn new(opening: Opening, fidelity: Fidelity, stepper: Stepper) -> Result<Simulated> {
+        let hello = describe::hello(&opening, fidelity, &stepper)?;
         let wall = stepper.case().plan().and_then(|plan| plan.wall.as_ref());
         let along_y = wall.and_then(|wall| wall.along_y.as_ref()).map(|along_y| along_y.above);
         let sides = [wall.map(|wall| wall.right), along_y];
@@ -50,7 +43,9 @@ impl Simulated {
             .enumerate()
             .filter_map(|(axis, above)| Some(Surface { axis, mm: None, above: (*above)? }));
         let pads = hello.pads.len();
-        let log = Log::new(opening, &scene.cases[index].document, (index, stepper.case().clock));
+        let case = stepper.case();
+        let document = &case.scene.cases[case.index].document;
+        let log = Log::new(opening, document, (case.index, case.clock));
         Ok(Simulated {
             pads: Pads::new(pads, stepper.plant().parts_mm(), hello.hand),
             walls: walls.collect(),
@@ -138,7 +133,7 @@ impl Source for Simulated {
     fn frames(&self) -> Frames {
         let time_s = self.stepper.time_s();
         let mm = self.stepper.walls_mm();
-        let (mut terminals, voltages) = (describe::amplitudes(&self.stepper), 2);
+        let (mut terminals, voltages) = (self.stepper.amplitudes(), 2);
         let voltages = terminals.split_off(terminals.len().saturating_sub(voltages));
         Frames {
             slot: self.stepper.slot(),

@@ -13,77 +13,25 @@
 //! | `in wall` | the wall brakes the pad |
 //! | `free` | none of these |
 
-use serde::Serialize;
+use crate::protocol::{Event, PadRow, State};
 
-use crate::protocol::{Event, PadRow};
-
-/// A state that a client sees, from the best to the worst.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord, Serialize)]
-pub enum State {
-    /// Nothing acts on the pad but its load and its drive.
-    #[default]
-    #[serde(rename = "free")]
-    Free,
-    /// The wall brakes it.
-    #[serde(rename = "in wall")]
-    InWall,
-    /// Its force swings.
-    #[serde(rename = "noisy")]
-    Noisy,
-    /// Its force is short of its target.
-    #[serde(rename = "limited")]
-    Limited,
-    /// The wall holds it although the hand pulls out.
-    #[serde(rename = "sticking")]
-    Sticking,
-    /// It does not touch.
-    #[serde(rename = "lifted")]
-    Lifted,
-    /// Its drive is off after a fault.
-    #[serde(rename = "fault")]
-    Fault,
-    /// Its measurements mean nothing.
-    #[serde(rename = "invalid")]
-    Invalid,
-    /// A terminal or the link is lost.
-    #[serde(rename = "lost")]
-    Lost,
-}
-
-impl State {
-    /// What happens when a pad enters the state from another.
-    fn sentence(self, before: State, row: &PadRow) -> String {
-        let at = |value: Option<f64>, unit| {
-            value.map_or(String::new(), |value| format!(" at {value:.0} {unit}"))
-        };
-        match (self, before) {
-            (State::Free, State::InWall | State::Sticking) => "leaves the wall".into(),
-            (State::Free, before) => format!("no longer {}", before.word()),
-            (State::InWall, State::Free) => "enters the wall".into(),
-            (State::InWall, before) => format!("in the wall, no longer {}", before.word()),
-            (State::Noisy, _) => "the force swings".into(),
-            (State::Limited, _) => format!("limited{}", at(row.drive_v_rms, "V")),
-            (State::Sticking, _) => "sticks: the hand pulls out, the wall still brakes".into(),
-            (State::Lifted, _) => "lifted: the pad does not touch the sheet".into(),
-            (State::Fault, _) => "fault: drives off".into(),
-            (State::Invalid, _) => "measurements are invalid".into(),
-            (State::Lost, _) => "a terminal's current is missing".into(),
-        }
-    }
-
-    /// Its word.
-    pub fn word(self) -> &'static str {
-        match self {
-            State::Free => "free",
-            State::InWall => "in wall",
-            State::Noisy => "noisy",
-            State::Limited => "limited",
-            State::Sticking => "sticking",
-            State::Lifted => "lifted",
-            State::Fault => "fault",
-            State::Invalid => "invalid",
-            State::Lost => "lost",
-        }
+/// What happens when a pad enters the state of its row from another.
+fn sentence(before: State, row: &PadRow) -> String {
+    let at = |value: Option<f64>, unit| {
+        value.map_or(String::new(), |value| format!(" at {value:.0} {unit}"))
+    };
+    match (row.state, before) {
+        (State::Free, State::InWall | State::Sticking) => "leaves the wall".into(),
+        (State::Free, before) => format!("no longer {}", before.word()),
+        (State::InWall, State::Free) => "enters the wall".into(),
+        (State::InWall, before) => format!("in the wall, no longer {}", before.word()),
+        (State::Noisy, _) => "the force swings".into(),
+        (State::Limited, _) => format!("limited{}", at(row.drive_v_rms, "V")),
+        (State::Sticking, _) => "sticks: the hand pulls out, the wall still brakes".into(),
+        (State::Lifted, _) => "lifted: the pad does not touch the sheet".into(),
+        (State::Fault, _) => "fault: drives off".into(),
+        (State::Invalid, _) => "measurements are invalid".into(),
+        (State::Lost, _) => "a terminal's current is missing".into(),
     }
 }
 
@@ -156,7 +104,7 @@ impl Watch {
         }
         self.candidate = None;
         let before = std::mem::replace(&mut self.told, row.state);
-        let what = row.state.sentence(before, row);
+        let what = sentence(before, row);
         Some(Event { time_s: since_s, pad: row.pad, state: row.state, what })
     }
 }

@@ -29,8 +29,8 @@ use crate::interrupt;
 use crate::maker::Maker;
 use crate::prefetch::{PreparedSlot, prefetch};
 use crate::record::{self, Row, SignalError};
-use crate::session::Session;
-use crate::stepper::{Options, Stepper};
+use crate::session::{Options, Session};
+use crate::stepper::Stepper;
 
 /// Bytes of the slots that are generated ahead of the core.
 const KEPT: usize = 8 << 20;

@@ -18,7 +18,24 @@ use crate::direction::Directions;
 use crate::engine::{Engine, Fidelity, Signals, Slot, engine};
 use crate::errors::Errors;
 use crate::record::{Quantities, Reference, Row, SignalError, Truth};
-use crate::stepper::Options;
+
+/// How a core is run on slots.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Options {
+    /// How exactly the core is run.
+    pub fidelity: Fidelity,
+    /// Whether rounding errors are asked for.
+    pub errors: bool,
+    /// Whether the floating-point reference runs on the same samples, for [`Row::reference`].
+    pub reference: bool,
+}
+
+impl Options {
+    /// Whether the core takes the samples of the blanking, too.
+    pub(crate) fn is_whole(&self) -> bool {
+        self.fidelity == Fidelity::Clock
+    }
+}
 
 /// A core at work on one stream of slots.
 pub struct Session {

@@ -20,7 +20,7 @@ use hapticore_scene::{EffectCost, Plant, Scene, Timing};
 
 use crate::case::{Case, OfPlant, record_truth};
 use crate::control::plant::LoopPlant;
-use crate::engine::{Fidelity, Signals, Slot};
+use crate::engine::{Signals, Slot};
 use crate::findings::states::Limits;
 use crate::inputs::{timing, windowed};
 use crate::maker::Maker;
@@ -29,25 +29,8 @@ use crate::session::Session;
 
 mod input;
 
+pub use crate::session::Options;
 pub use input::{Input, InputError, RELEASE_S};
-
-/// How a case is stepped.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Options {
-    /// How exactly the core is run.
-    pub fidelity: Fidelity,
-    /// Whether rounding errors are asked for.
-    pub errors: bool,
-    /// Whether the floating-point reference runs on the same samples, for [`Row::reference`].
-    pub reference: bool,
-}
-
-impl Options {
-    /// Whether the core takes the samples of the blanking, too.
-    pub(crate) fn is_whole(&self) -> bool {
-        self.fidelity == Fidelity::Clock
-    }
-}
 
 /// A case that is stepped slot by slot: plant, core, and what closes its force loop.
 ///
@@ -250,6 +233,21 @@ impl Stepper {
             Signals::Samples { codes, blanking } => Some(&codes[*blanking..]),
             Signals::Phasors { .. } => None,
         }
+    }
+
+    /// The largest sample of each channel in the last slot, as a fraction of full scale; empty where there are
+    /// no [codes](Self::codes).
+    pub fn amplitudes(&self) -> Vec<f64> {
+        let Some(codes) = self.codes() else { return Vec::new() };
+        let profile = &self.case.profile;
+        let mut largest = vec![0; profile.channels()];
+        for sample in codes.chunks_exact(profile.channels()) {
+            for (largest, code) in largest.iter_mut().zip(sample) {
+                *largest = code.unsigned_abs().max(*largest);
+            }
+        }
+        let lsb = profile.formats.adc.lsb();
+        largest.into_iter().map(|code| f64::from(code) * lsb).collect()
     }
 
     /// What the core received of the last slot.

@@ -3,7 +3,7 @@
 //! scene says, from a time on that the plant has not been evaluated at yet.
 
 use super::Plant;
-use crate::drive::{DriveError, LOAD, PUSH, VOLTAGE};
+use crate::input_limits::{DriveError, LOAD, PUSH, VOLTAGE};
 use crate::pad_inputs::PadInputs;
 use crate::stimulus::Moment;
 use crate::trajectory::is_within;

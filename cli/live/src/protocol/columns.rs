@@ -4,7 +4,7 @@
 use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
 
-use crate::state::State;
+use super::state::State;
 
 /// A column of numbers.
 #[derive(Debug, Clone, Copy)]

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Timelines of a scene from what was done: values that are set, and lines on which a finger is led.
 
+use hapticore_scene::{FingerPath, Line};
 use toml::{Table, Value};
 
 use super::script::Script;
@@ -76,39 +77,17 @@ pub(super) struct Motion {
     pub to_mm: Option<[f64; 2]>,
 }
 
-/// A line of a finger, as the plant makes it of a motion.
-#[derive(Debug, Clone, Copy)]
-struct Line {
-    from_s: f64,
-    at_s: f64,
-    from_mm: [f64; 2],
-    to_mm: [f64; 2],
-    stays: bool,
-}
-
-impl Line {
-    fn at(&self, time_s: f64) -> Option<[f64; 2]> {
-        if time_s >= self.at_s {
-            return self.stays.then_some(self.to_mm);
-        }
-        let (now_s, whole_s) = (time_s - self.from_s, self.at_s - self.from_s);
-        Some([0, 1].map(|axis| {
-            self.from_mm[axis] + (self.to_mm[axis] - self.from_mm[axis]) * now_s / whole_s
-        }))
-    }
-}
-
-/// Lines in the order of time; before the first the scene has the finger.
+/// The path of a finger; before its first line the scene has it.
 #[derive(Debug, Clone)]
 pub(super) struct Track {
-    lines: Vec<Line>,
+    path: FingerPath,
     scripts: [Script; 2],
 }
 
 impl Track {
     /// Of motions in the order of time, with what the scene does by itself.
     pub fn of(motions: impl Iterator<Item = Motion>, scripts: [Script; 2]) -> Track {
-        let mut track = Track { lines: Vec::new(), scripts };
+        let mut track = Track { path: FingerPath::default(), scripts };
         motions.for_each(|motion| track.add(motion));
         track
     }
@@ -118,21 +97,13 @@ impl Track {
     }
 
     fn at(&self, time_s: f64) -> [f64; 2] {
-        let led = self.lines.last().and_then(|line| line.at(time_s));
-        led.unwrap_or_else(|| self.scripted(time_s))
+        self.path.at(time_s).unwrap_or_else(|| self.scripted(time_s))
     }
 
     fn add(&mut self, Motion { from_s, at_s, to_mm }: Motion) {
-        let (from_mm, stays) = (self.at(from_s), to_mm.is_some());
-        let to_mm = to_mm.unwrap_or_else(|| self.scripted(at_s));
-        let rests = |line: &Line| line.stays && line.at_s <= from_s;
-        if stays && from_mm == to_mm && self.lines.last().is_some_and(rests) {
-            return;
-        }
-        if self.lines.last().is_some_and(|line| line.from_s == from_s) {
-            self.lines.pop();
-        }
-        self.lines.push(Line { from_s, at_s, from_mm, to_mm, stays });
+        let from_mm = self.at(from_s);
+        let place_mm = to_mm.unwrap_or_else(|| self.scripted(at_s));
+        self.path.go([from_s, at_s], from_mm, place_mm, to_mm.is_some());
     }
 
     /// Both axes as a `position_mm`.
@@ -149,12 +120,13 @@ impl Track {
                 note(notes, if script.is_sampled { SAMPLED } else { ROUNDED });
             }
         };
-        let first_s = self.lines[0].from_s;
+        let lines: Vec<&Line> = self.path.lines().collect();
+        let first_s = lines[0].from_s;
         cut(first_s);
         let mut knots: Vec<[f64; 2]> = script.between(f64::NEG_INFINITY, first_s).collect();
         let mut is_cut = false;
-        for (n, line) in self.lines.iter().enumerate() {
-            let next_s = self.lines.get(n + 1).map_or(f64::INFINITY, |next| next.from_s);
+        for (n, line) in lines.iter().enumerate() {
+            let next_s = lines.get(n + 1).map_or(f64::INFINITY, |next| next.from_s);
             knots.push([line.from_s, line.from_mm[axis]]);
             if next_s < line.at_s {
                 is_cut |= line.from_mm[axis] != line.to_mm[axis];

@@ -293,10 +293,15 @@ def lost_connection_is_plain(browser, url, _):
 
 
 def links_open_scenes(browser, url, _):
-    """A link opens its scene with its settings, and the address keeps them; an unknown preset is refused in words."""
+    """A link opens its scene with its settings; the address and the links of other pages have them; an unknown preset is refused."""
     with Visit(browser, url, "?scene=hockey&set=sensor.noise_ppm_rms=40") as visit:
         expect(visit.page.locator("#scene")).to_have_value("hockey")
         assert "set=sensor.noise_ppm_rms=40" in visit.page.url
+        with Visit(browser, url, "", permissions=["clipboard-read", "clipboard-write"]) as other:
+            other.page.locator("#copy-link").click()
+            expect(other.page.locator("#notice")).to_contain_text("Copied: ")
+            copied = other.page.evaluate("navigator.clipboard.readText()")
+            assert "scene=hockey" in copied and "set=sensor.noise_ppm_rms=40" in copied, copied
         visit.page.goto(url + "?preset=nonsense")
         expect(visit.page.locator("#notice")).to_contain_text("preset: expected one of")
         visit.page.locator("#scene").select_option("peg")

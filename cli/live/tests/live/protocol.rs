@@ -5,7 +5,8 @@ use hapticore_live::protocol::{
     COLUMNS, Command, Every, Format, Opening, Recording, Request, Setting, Subscription,
 };
 use hapticore_live::rows;
-use hapticore_live::source::{self, Source};
+use hapticore_live::setup;
+use hapticore_live::source::Source;
 
 use crate::client::{Live, opening};
 
@@ -140,7 +141,7 @@ fn a_slot_has_the_codes_of_its_window() {
     let last = client.done("\"type\":\"step\",\"slots\":9") - 1;
     client.send(r#"{"type":"slot"}"#);
     let slot = client.next("slot");
-    let mut own = source::simulated(&opening("peg", &[])).unwrap();
+    let mut own = setup::simulated(&opening("peg", &[])).unwrap();
     let profile = own.stepper().case().profile.clone();
     (0..=last).for_each(|_| drop(own.advance().unwrap()));
     let expected = own.codes();

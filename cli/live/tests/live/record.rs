@@ -4,8 +4,9 @@
 use std::sync::Arc;
 
 use hapticore_live::protocol::{Command, Opening, Recording, Setting};
+use hapticore_live::setup::simulated;
 use hapticore_live::simulated::Simulated;
-use hapticore_live::source::{Source, simulated};
+use hapticore_live::source::Source;
 use hapticore_run::case::{Case, Settings};
 use hapticore_run::engine::Fidelity;
 use hapticore_run::inputs;

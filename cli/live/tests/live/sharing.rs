@@ -2,7 +2,7 @@
 //! Several clients, one source: who sees what, who stops whom, and what presets do.
 
 use hapticore_live::presets;
-use hapticore_live::source::simulated;
+use hapticore_live::setup::simulated;
 use serde_json::Value;
 use tungstenite::Message;
 
@@ -80,7 +80,10 @@ fn a_scene_is_replaced_for_all_and_a_broken_one_for_none() {
     );
     let hello = other.next("hello");
     assert_eq!((&hello["scene"], &hello["case"]), (&"minimal-gap".into(), &"even gap".into()));
-    assert_eq!(hello["inputs"][0]["value"], 33.0);
+    assert_eq!(
+        (&hello["inputs"][0]["value"], &hello["set"]["pad.0.load_g"]),
+        (&33.0.into(), &"33".into())
+    );
     assert_eq!(
         hello["command"],
         "hapticore simulate minimal-gap --set pad.0.load_g=33 --case 'even gap'"

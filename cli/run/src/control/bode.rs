@@ -22,8 +22,7 @@ use crate::case::{Case, Settings};
 use crate::interrupt;
 use crate::maker::Maker;
 use crate::record::{Bode, BodePoint};
-use crate::session::Session;
-use crate::stepper::Options;
+use crate::session::{Options, Session};
 
 /// Frames that are measured, and the time before them, s.
 const FRAMES: usize = 400;

@@ -76,8 +76,8 @@ pub(crate) enum WallInput {
     Off,
 }
 
-/// A surface that no pad reaches, mm: words saturate, at places off the sheet.
-const FAR_MM: f64 = 1e4;
+/// A surface that no pad reaches, mm, where a wall is off: words saturate, at places off the sheet.
+pub const FAR_MM: f64 = 1e4;
 
 impl WallInput {
     /// The place of a surface that is in the scene at `mm`, and whose inside is right of it or not.
