@@ -67,23 +67,57 @@ enum Stage {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone)]
-pub struct BringUp<'a> {
-    profile: &'a Profile,
-    calibration: &'a Calibration,
+pub struct BringUp {
+    profile: Profile,
+    calibration: Calibration,
     output: Option<Output>,
     /// Commands that the board had accepted before, modulo 16, and those sent since.
     before: u8,
     sent: usize,
     stage: Stage,
     waited: u8,
-    codes: Vec<u64>,
+    codes: Vec<Option<u64>>,
+    /// Goes on behind a line that fails.
+    all_lines: bool,
+    faults: Vec<(u8, LineFault)>,
 }
 
-impl<'a> BringUp<'a> {
+impl BringUp {
     /// Of a board of this profile, with an output where it drives its pads.
-    pub fn new(profile: &'a Profile, calibration: &'a Calibration, output: Option<Output>) -> Self {
+    pub fn new(profile: &Profile, calibration: &Calibration, output: Option<Output>) -> Self {
         let (stage, codes) = (Stage::Prepared, Vec::new());
-        BringUp { profile, calibration, output, before: 0, sent: 0, stage, waited: 0, codes }
+        let (profile, calibration) = (profile.clone(), calibration.clone());
+        BringUp {
+            profile,
+            calibration,
+            output,
+            before: 0,
+            sent: 0,
+            stage,
+            waited: 0,
+            codes,
+            all_lines: false,
+            faults: Vec::new(),
+        }
+    }
+
+    /// The same, which tests every line before it refuses the board for the first that fails: see
+    /// [`BringUp::line_faults`].
+    pub fn with_all_lines(self) -> Self {
+        BringUp { all_lines: true, ..self }
+    }
+
+    /// The lines that have failed so far, and what each brings.
+    pub fn line_faults(&self) -> &[(u8, LineFault)] {
+        &self.faults
+    }
+
+    /// The line that is tested now; none before and after the test of the lines.
+    pub fn line_under_test(&self) -> Option<u8> {
+        match self.stage {
+            Stage::Line(line) => Some(line),
+            Stage::Prepared | Stage::Tested => None,
+        }
     }
 
     /// The first commands, for a board that has accepted `before` commands, modulo 16: none after its
@@ -92,7 +126,8 @@ impl<'a> BringUp<'a> {
         (self.before, self.sent) = (before, 0);
         (self.stage, self.waited) = (Stage::Prepared, 0);
         self.codes.clear();
-        self.sending(prepare(self.profile, self.calibration, adc))
+        self.faults.clear();
+        self.sending(prepare(&self.profile, &self.calibration, adc))
     }
 
     /// The next step, after a heartbeat that has begun after the last commands were sent.
@@ -105,13 +140,17 @@ impl<'a> BringUp<'a> {
         match self.stage {
             Stage::Prepared | Stage::Tested => match self.check(heartbeat) {
                 Err(StartupError::Commands { .. }) if !last => Ok(Step::Wait),
+                // The ADC's ID comes over its first line: the test of the lines says whether that is why.
+                Err(StartupError::Adc(_)) if self.all_lines && self.stage == Stage::Prepared => {
+                    Ok(self.first_line())
+                }
                 Err(error) => Err(error),
                 Ok(()) if self.stage == Stage::Tested => Ok(Step::Ready(Command::ENABLE)),
                 Ok(()) => Ok(self.first_line()),
             },
             Stage::Line(line) => match self.code(heartbeat) {
                 None if !last => Ok(Step::Wait),
-                None => Err(StartupError::Line { line, fault: LineFault::Silent }),
+                None => self.judged(line, Err(LineFault::Silent)),
                 Some(code) => self.line(line, code),
             },
         }
@@ -119,7 +158,7 @@ impl<'a> BringUp<'a> {
 
     fn check(&self, heartbeat: &Heartbeat) -> Result<(), StartupError> {
         let sent = (self.before, self.sent);
-        check(heartbeat, self.profile, self.output.as_ref(), self.calibration, sent)
+        check(heartbeat, &self.profile, self.output.as_ref(), &self.calibration, sent)
     }
 
     /// The code of the line that is tested, once the board has taken the command for that.
@@ -140,14 +179,28 @@ impl<'a> BringUp<'a> {
     fn line(&mut self, line: u8, code: u64) -> Result<Step, StartupError> {
         let bits = self.profile.formats.adc.width;
         let code = code & ((1 << bits) - 1);
-        let refused = |fault| Err(StartupError::Line { line, fault });
         if code == (1 << bits) - 1 {
-            return refused(LineFault::Ones);
+            return self.judged(line, Err(LineFault::Ones));
         }
-        if let Some(other) = self.codes.iter().position(|before| *before == code) {
-            return refused(LineFault::Shorted { other: other as u8, code });
+        match self.codes.iter().position(|before| *before == Some(code)) {
+            Some(other) => {
+                self.judged(line, Err(LineFault::Shorted { other: other as u8, code }))
+            }
+            None => self.judged(line, Ok(code)),
         }
-        self.codes.push(code);
+    }
+
+    /// Goes on behind a line with its code, or with what is wrong with it.
+    fn judged(&mut self, line: u8, code: Result<u64, LineFault>) -> Result<Step, StartupError> {
+        self.codes.push(code.ok());
+        self.faults.extend(code.err().map(|fault| (line, fault)));
+        let is_last = self.codes.len() >= self.profile.channels();
+        match self.faults.first() {
+            Some(&(line, fault)) if is_last || !self.all_lines => {
+                return Err(StartupError::Line { line, fault });
+            }
+            _ => (),
+        }
         let commands = if self.codes.len() < self.profile.channels() {
             self.stage = Stage::Line(line + 1);
             vec![test_of(line + 1)]

@@ -15,6 +15,7 @@
 //! | --- | --- |
 //! | [`decoder`], [`packet`] | messages from bytes: frames, heartbeats, and what was damaged |
 //! | [`command`], [`startup`] | bytes to the board: calibration, ADC, on and off; whether it took them |
+//! | [`command_decoder`] | the board's side of commands |
 //! | [`bringup`] | all of that step by step, with a test of the ADC's data lines |
 //! | [`drive`] | bytes to a board that drives its pads: tuning, targets, walls |
 //! | [`device`], [`residual`] | the calibration of a device: its file, its words for a core, how well its table fits |
@@ -53,6 +54,7 @@
 
 pub mod bringup;
 pub mod command;
+pub mod command_decoder;
 pub mod crosstalk;
 pub mod decoder;
 pub mod device;
@@ -73,6 +75,7 @@ pub mod typed;
 pub mod units;
 
 pub use command::{Command, encode};
+pub use command_decoder::{CommandDecoder, Refused};
 pub use crosstalk::{
     CrosstalkCanceller, NominalSheet, PadEstimate, Ratios, SheetModel, UniformSheet,
 };

@@ -90,6 +90,11 @@ fn packets() {
 }
 
 #[test]
+fn commands_to_boards() {
+    hold("board_commands", 5000);
+}
+
+#[test]
 fn cores() {
     hold("core", 30);
 }

@@ -181,6 +181,26 @@ impl DriveWord {
         SELECT | kind.bits() << KIND | number
     }
 
+    /// The word at a place; none where there is no word, or where the place is another's than the drive's.
+    ///
+    /// ```
+    /// # use hapticore_protocol::drive::{DriveWord, Setting};
+    /// assert_eq!(DriveWord::of_place(0x4004), Some(DriveWord::Setting(Setting::Rail)));
+    /// assert_eq!(DriveWord::of_place(0x7803), Some(DriveWord::Surface { pad: 3, right: true }));
+    /// assert_eq!(DriveWord::of_place(0x0004), None, "a word of the position table");
+    /// ```
+    pub fn of_place(place: u16) -> Option<Self> {
+        let number = place & ((1 << KIND) - 1);
+        let pad = u8::try_from(number & !(1 << RIGHT)).ok();
+        match place >> KIND {
+            0b100 => Setting::ALL.get(usize::from(number)).copied().map(DriveWord::Setting),
+            0b101 => Some(DriveWord::Curve(number)),
+            0b110 => u8::try_from(number).ok().map(DriveWord::Target),
+            0b111 => Some(DriveWord::Surface { pad: pad?, right: number >> RIGHT != 0 }),
+            _ => None,
+        }
+    }
+
     /// Its format on a board of the profile; none without a controller.
     pub fn format(self, profile: &Profile) -> Option<Format> {
         let control = profile.control.as_ref()?;

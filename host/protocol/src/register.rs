@@ -69,6 +69,19 @@ impl Register {
         Register::SELECT | self.number() as u16
     }
 
+    /// The register at a place, whose other bits are ignored; none where there is no register.
+    ///
+    /// ```
+    /// # use hapticore_protocol::Register;
+    /// assert!(Register::ALL.iter().all(|register| Register::of_place(register.place()) == Some(*register)));
+    /// assert_eq!(Register::of_place(3), None, "a word of the position table");
+    /// ```
+    pub fn of_place(place: u16) -> Option<Self> {
+        let number = place & ((1 << PLACE.width) - 1);
+        let is_register = place & Register::SELECT != 0;
+        Register::ALL.get(usize::from(number)).copied().filter(|_| is_register)
+    }
+
     /// The format of its code.
     pub fn format(self, formats: &WordFormats) -> Format {
         match self {

@@ -14,10 +14,12 @@
 //! | `lab` | setup, places and loads, each ended by a zero | what is accepted makes a calibration that is read again to the same, or is refused |
 //! | `options` | words of a command line | what options hold is read or refused; a scene with keys set is read again to the same |
 //! | `packets` | a profile, then a line | a message that is heard is sent and heard again to the same; the line recovers |
+//! | `board_commands` | a profile, then what a host sends | a command that is heard is sent and heard again to the same; the line recovers |
 //! | `core` | choices | a random legal profile, calibration and codes: `clock` = `fixed` = rounded reference |
 //!
 //! Of every reader: no panic, bounded memory and time, and a refusal is one line that names the place.
 
+mod board_commands;
 mod calibration;
 mod captures;
 pub mod commands;
@@ -42,7 +44,7 @@ use anyhow::Error;
 pub type Target = (&'static str, fn(&[u8]) -> bool);
 
 /// All targets.
-pub const TARGETS: [Target; 12] = [
+pub const TARGETS: [Target; 13] = [
     ("profile", profile::check),
     ("scene", scene::check),
     ("calibration", calibration::check),
@@ -54,6 +56,7 @@ pub const TARGETS: [Target; 12] = [
     ("lab", lab::check),
     ("options", options::check),
     ("packets", packets::check),
+    ("board_commands", board_commands::check),
     ("core", core::check),
 ];
 

@@ -7,7 +7,9 @@ use fastrand::Rng;
 use hapticore_contract::control::{Control, Law};
 use hapticore_contract::frame::{Field, Flags, Frame};
 use hapticore_contract::profile::{BUNDLED, Profile, Wall};
-use hapticore_host::{DeviceCalibration, Heartbeat, Message, Packet, Raster, Status};
+use hapticore_host::{
+    Command, DeviceCalibration, Heartbeat, Message, Packet, Raster, Status, encode,
+};
 use hapticore_run::tuning_file::TuningFile;
 use hapticore_run::{calibrate, inputs};
 use hapticore_scene::{Plant, Scene, gallery};
@@ -30,6 +32,7 @@ pub fn of(target: &str) -> Vec<Vec<u8>> {
         "lab" => bytes(labs()),
         "options" => bytes(OPTIONS.map(|line| line.replace(' ', "\n")).to_vec()),
         "packets" => packets(),
+        "board_commands" => board_commands(),
         "core" => (0..16).map(random).collect(),
         other => panic!("no target {other}"),
     }
@@ -221,6 +224,22 @@ fn labs() -> Vec<String> {
         format!("{SETUP}\0{}\0{LOADS}", places(true)),
         format!("{SETUP}force_k = 9.6e12\n\0{}", places(false)),
     ]
+}
+
+/// For each profile commands of each kind, one after the other; then payloads, which are packed where they are read.
+fn board_commands() -> Vec<Vec<u8>> {
+    let of = |(choice, profile): (u8, &Profile)| {
+        let commands =
+            [Command::RESET_ADC, Command::Table { address: 3, code: -2 }, Command::ENABLE];
+        std::iter::once(choice).chain(encode(&commands, profile)).collect()
+    };
+    let profiles = Profile::all();
+    let payloads = (0x80..0x80 + 2 * profiles.len() as u8).map(|choice| {
+        let places = [0x80, 0x40, 0x50, 0x60, 0x70, 0x78, 0x00];
+        let payload = |place: u8| [place, 3, 0, 1, 2].into_iter();
+        std::iter::once(choice).chain(places.into_iter().flat_map(payload)).collect()
+    });
+    (0..).zip(&profiles).map(of).chain(payloads).collect()
 }
 
 /// Of each profile a heartbeat and frames, one after the other.
