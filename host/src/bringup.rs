@@ -183,9 +183,7 @@ impl BringUp {
             return self.judged(line, Err(LineFault::Ones));
         }
         match self.codes.iter().position(|before| *before == Some(code)) {
-            Some(other) => {
-                self.judged(line, Err(LineFault::Shorted { other: other as u8, code }))
-            }
+            Some(other) => self.judged(line, Err(LineFault::Shorted { other: other as u8, code })),
             None => self.judged(line, Ok(code)),
         }
     }

@@ -17,6 +17,8 @@
 //! | [`command`], [`startup`] | bytes to the board: calibration, ADC, on and off; whether it took them |
 //! | [`command_decoder`] | the board's side of commands |
 //! | [`bringup`] | all of that step by step, with a test of the ADC's data lines |
+//! | [`link`] | a serial port or a connection that is kept open, with a board that is brought up and armed over it |
+//! | [`ad7606c`] | the ADC's registers, for programs that stand in for a board |
 //! | [`drive`] | bytes to a board that drives its pads: tuning, targets, walls |
 //! | [`device`], [`residual`] | the calibration of a device: its file, its words for a core, how well its table fits |
 //! | [`profile`] | the core's profile, for the terminals and pads of a device |
@@ -52,6 +54,7 @@
 //! `examples/board_to_csv.rs` is the same as a program: bytes on standard input, CSV on standard
 //! output.
 
+pub mod ad7606c;
 pub mod bringup;
 pub mod command;
 pub mod command_decoder;
@@ -63,6 +66,7 @@ pub mod drive;
 mod garbled;
 pub mod laws;
 mod line;
+pub mod link;
 pub mod packet;
 pub mod placement;
 pub mod profile;

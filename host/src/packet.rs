@@ -153,6 +153,16 @@ impl Heartbeat {
         Heartbeat { status, calibrated: false, version: VERSION, words, bits: layout.register_bits }
     }
 
+    /// The same after a word of its number was written, as its low bits: for programs that stand in for a board.
+    pub fn with_word(mut self, number: usize, bits: u64, profile: &Profile) -> Self {
+        let data = 8 * data_bytes(&WordFormats::new(profile)) as u32;
+        let width = u32::from(Field::word(profile).width);
+        let above = u64::BITS - width;
+        let kept = (bits & (u64::MAX >> (u64::BITS - data))) << above;
+        self.words[number] = kept as i64 >> above;
+        self
+    }
+
     /// The low bits of the value last written into a constant's register, as many as fit a word of
     /// a frame, and their number. None of the other registers, which heartbeats do not report.
     pub fn register(&self, register: Register) -> Option<(u64, u8)> {

@@ -23,7 +23,6 @@ mod driven;
 mod heartbeats;
 mod line;
 mod mutants;
-mod part;
 mod pins;
 mod ranges;
 mod safety;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What stands at the board's pins: an ADC, and the host's end of the serial line.
 
-use crate::part::Part;
+use hapticore_host::ad7606c::Part;
 use hapticore_rtl::board::Parameters;
 use hapticore_rtl::board::drive_output::DacPort;
 use hapticore_rtl::board::whole::Outputs;

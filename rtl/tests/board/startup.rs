@@ -2,12 +2,12 @@
 //! From a reset to frames, and from one enabling to the next.
 
 use crate::device::{Sight, calibration, codes, short_profiles};
-use crate::part::Part;
 use crate::random::Random;
 use crate::session::{Session, parameters, samples, simulated, small};
 use hapticore_contract::control::{Control, Law};
 use hapticore_contract::profile::Profile;
 use hapticore_host::Constant;
+use hapticore_host::ad7606c::Part;
 use hapticore_host::bringup::{BringUp, Step};
 use hapticore_host::startup::{AdcSetup, LineFault, Range, StartupError, check, prepare, start};
 use hapticore_host::{Command, Heartbeat};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The registers of an AD7606C behind its serial port, and what the part refuses.
+//! The registers of an AD7606C behind its serial port, and what the part refuses: for programs that stand in for a board
+//! and its ADC.
 //!
 //! A word over SDI is 16 bits: zero, read, six bits of address, eight of data. While the part
 //! converts (ADC mode) it takes nothing but a read, which puts it into register mode. There it
@@ -21,6 +22,16 @@ const ID: usize = 0x2f;
 const READ_ONLY: [usize; 8] = [0x01, 0x22, 0x24, 0x26, 0x27, 0x2d, 0x2e, ID];
 
 /// The registers, and the mode.
+///
+/// ```
+/// use hapticore_host::ad7606c::Part;
+///
+/// let mut part = Part::new(0x31);
+/// let send = |part: &mut Part, word: u16| part.word(&(0..16).rev().map(|bit| i64::from(word >> bit & 1)).collect::<Vec<_>>());
+/// assert!(send(&mut part, 0x0218).is_err(), "a write before a read has entered register mode");
+/// assert!(send(&mut part, 0x6f00).is_ok() && send(&mut part, 0x0218).is_ok());
+/// assert_eq!(part.lines(), 8);
+/// ```
 #[derive(Debug, Clone)]
 pub struct Part {
     registers: [u8; 0x30],
@@ -137,25 +148,31 @@ impl Part {
     }
 }
 
-#[test]
-fn the_part_takes_what_its_data_sheet_says_and_nothing_else() {
-    let bits = |word: u16| (0..16).rev().map(|bit| i64::from(word >> bit & 1)).collect::<Vec<_>>();
-    let mut part = Part::new(0x31);
-    assert!(part.word(&bits(0x0218)).is_err() && part.lines() == 2, "ADC mode takes no write");
-    assert!(part.word(&[0; 18]).is_ok() && !part.register_mode(), "a read of codes is no word");
-    assert!(
-        part.word(&bits(0x6f00)).is_ok() && part.register_mode(),
-        "a read enters register mode"
-    );
-    assert_eq!(part.answer() & 0xff, 0x31, "and is answered during the next word");
-    assert!(part.word(&bits(0x0218)).is_ok() && part.lines() == 8);
-    for refused in [0x2f00, 0x3000, 0x03ff, 0x0284, 0x8000, 0x4000] {
-        assert!(part.word(&bits(refused)).is_err(), "{refused:04x}");
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_part_takes_what_its_data_sheet_says_and_nothing_else() {
+        let bits =
+            |word: u16| (0..16).rev().map(|bit| i64::from(word >> bit & 1)).collect::<Vec<_>>();
+        let mut part = Part::new(0x31);
+        assert!(part.word(&bits(0x0218)).is_err() && part.lines() == 2, "ADC mode takes no write");
+        assert!(part.word(&[0; 18]).is_ok() && !part.register_mode(), "a read of codes is no word");
+        assert!(
+            part.word(&bits(0x6f00)).is_ok() && part.register_mode(),
+            "a read enters register mode"
+        );
+        assert_eq!(part.answer() & 0xff, 0x31, "and is answered during the next word");
+        assert!(part.word(&bits(0x0218)).is_ok() && part.lines() == 8);
+        for refused in [0x2f00, 0x3000, 0x03ff, 0x0284, 0x8000, 0x4000] {
+            assert!(part.word(&bits(refused)).is_err(), "{refused:04x}");
+        }
+        assert!(part.word(&bits(0x0218)[1..]).is_err(), "15 bits");
+        assert!(part.word(&bits(0)).is_ok() && !part.register_mode(), "zero leaves register mode");
+        assert_eq!(
+            part.commands,
+            [0x0218, 0x6f00, 0x0218, 0x2f00, 0x3000, 0x03ff, 0x0284, 0x8000, 0x4000, 0]
+        );
     }
-    assert!(part.word(&bits(0x0218)[1..]).is_err(), "15 bits");
-    assert!(part.word(&bits(0)).is_ok() && !part.register_mode(), "zero leaves register mode");
-    assert_eq!(
-        part.commands,
-        [0x0218, 0x6f00, 0x0218, 0x2f00, 0x3000, 0x03ff, 0x0284, 0x8000, 0x4000, 0]
-    );
 }

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What a session says, in words: cause, then cure.
+
+use super::Statistics;
+use super::session::Phase;
+use crate::packet::Heartbeat;
+use hapticore_contract::control::Faults;
+
+impl Phase {
+    /// Its name, as `status` and a page show it.
+    pub fn word(&self) -> &'static str {
+        match self {
+            Phase::Disconnected => "disconnected",
+            Phase::Silent => "silent",
+            Phase::Identifying => "identifying",
+            Phase::Preparing => "starting up",
+            Phase::TestingLine(_) => "testing lines",
+            Phase::Measuring => "measuring",
+            Phase::Armed => "armed",
+            Phase::Off => "off",
+            Phase::Refused => "refused",
+        }
+    }
+}
+
+/// What a board says that it is.
+pub(super) fn identity(heartbeat: &Heartbeat) -> String {
+    format!(
+        "board found: protocol {}, digest {:04x}, {}",
+        heartbeat.version,
+        heartbeat.digest(),
+        heartbeat.output()
+    )
+}
+
+/// Why the drives are off, and what to do.
+pub(super) fn faults(faults: Faults) -> String {
+    let named = [
+        (faults.silence, "this host was silent for too long"),
+        (faults.sensor, "estimates of a pad were invalid for too long: check its wires"),
+        (faults.force, "a force was beyond its cap"),
+    ];
+    let named: Vec<_> = named.iter().filter(|(is, _)| *is).map(|(_, words)| *words).collect();
+    format!("fault: {}; drives are off until they are armed again", named.join("; "))
+}
+
+/// Why no packet of a board that is connected can be read.
+pub(super) fn unheard(counts: &Statistics, damaged: u64, baud: u32) -> String {
+    if damaged > 0 {
+        return format!(
+            "{damaged} damaged packets and no whole one: the board was printed for another profile or drive (--profile), or \
+             its line does not run at {baud} baud (--baud)"
+        );
+    }
+    match counts.bytes {
+        0 => "no bytes come: check the board's power, its configuration (DONE or CDONE high), and the port".into(),
+        bytes => format!(
+            "{bytes} bytes and no end of a packet: this is another device's port, or its line does not run at {baud} baud"
+        ),
+    }
+}
