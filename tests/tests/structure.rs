@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use toml::{Table, Value};
 
 /// Which crates of the workspace a crate may use; tests may use more ([`DEVELOPMENT`]).
-const IMPORTS: [(&str, &[&str]); 18] = [
+const IMPORTS: [(&str, &[&str]); 19] = [
     ("model/hdl", &[]),
     ("model/contract", &["hapticore-hdl"]),
     // Not the hardware language: its signals round, too.
@@ -31,6 +31,18 @@ const IMPORTS: [(&str, &[&str]); 18] = [
     ("scene/sheet", &[]),
     ("scene", &["hapticore-sheet"]),
     ("cli/files", &[]),
+    (
+        "cli/board",
+        &[
+            "hapticore-contract",
+            "hapticore-host",
+            "hapticore-live",
+            "hapticore-model",
+            "hapticore-protocol",
+            "hapticore-run",
+            "hapticore-scene",
+        ],
+    ),
     ("cli/live", &["hapticore-host", "hapticore-run", "hapticore-scene"]),
     ("waveforms", &["hapticore-files", "hapticore-hdl"]),
     (
@@ -73,6 +85,7 @@ const IMPORTS: [(&str, &[&str]); 18] = [
     (
         "cli",
         &[
+            "hapticore-board",
             "hapticore-contract",
             "hapticore-files",
             "hapticore-hdl",

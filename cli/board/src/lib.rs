@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A board beside a PC: virtual ones with faults on request, a board behind the live page, its wiring checked.
+//!
+//! | module | does |
+//! | --- | --- |
+//! | [`virtual_board`] | a scene behind the registers and packets of a board |
+//! | [`faults`] | what is wrong with a virtual board: wires, ADC lines, its serial line |
+//! | [`virtual_line`] | a virtual board in real time: within this process, over TCP, on standard input and output |
+//! | [`target`] | which board a command line means, and what it is brought up with |
+
+pub mod faults;
+
+pub mod virtual_board;
