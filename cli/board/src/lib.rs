@@ -6,8 +6,9 @@
 //! | [`virtual_board`] | a scene behind the registers and packets of a board |
 //! | [`faults`] | what is wrong with a virtual board: wires, ADC lines, its serial line |
 //! | [`virtual_line`] | a virtual board in real time: within this process, over TCP, on standard input and output |
-//! | [`target`] | which board a command line means, and what it is brought up with |
+//! | [`target`](mod@target) | which board a command line means, and what it is brought up with |
 
 pub mod faults;
-
+pub mod target;
 pub mod virtual_board;
+pub mod virtual_line;

@@ -2,7 +2,7 @@
 //! The core of a virtual board, made of the words that the host has written.
 
 use hapticore_contract::calibration::Calibration;
-use hapticore_contract::control::{Drive, Faults};
+use hapticore_contract::control::Drive;
 use hapticore_contract::frame::Frame;
 use hapticore_contract::profile::{Profile, ProfileError};
 use hapticore_host::Driven;
@@ -89,10 +89,5 @@ impl DrivenCore {
             faults: drive.faults,
         };
         fraction
-    }
-
-    /// The faults that keep the drives at zero.
-    pub fn faults(&self) -> Faults {
-        self.driven.faults
     }
 }
