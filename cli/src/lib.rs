@@ -4,7 +4,7 @@
 //! | module | does |
 //! | --- | --- |
 //! | [`args`] | the command line |
-//! | [`simulate`], [`replay`], [`hdl`], [`codes`](mod@codes), [`calibrate`], [`tradeoff`], [`sweep`], [`scenes`], [`live`] | one command each |
+//! | [`simulate`], [`replay`], [`hdl`], [`codes`](mod@codes), [`calibrate`], [`tradeoff`], [`sweep`], [`scenes`], [`live`], [`host`] | one command each |
 //! | [`output`], [`print`](mod@print), [`report`] | what a run leaves: a folder of files, lines on the terminal, a page of figures |
 //! | [`waves`] | waveforms of a case |
 //! | [`folder`], [`console`], [`progress`] | which folder; standard output that may be closed; how far a run is |
@@ -18,6 +18,7 @@ pub mod console;
 pub mod control_words;
 pub mod folder;
 pub mod hdl;
+pub mod host;
 pub mod live;
 pub mod output;
 pub mod print;
@@ -53,6 +54,7 @@ pub fn main() -> ExitCode {
         Command::Sweep(args) => sweep::run(&args),
         Command::Calibrate(args) => calibrate::run(&args),
         Command::Live(args) => live::run(&args),
+        Command::Host(args) => host::run(&args),
     };
     match outcome.and_then(|holds| console::finish().map(|()| holds)) {
         Ok(true) => ExitCode::SUCCESS,

@@ -40,7 +40,7 @@ pub fn run(args: &LiveArgs) -> Result<bool> {
 }
 
 /// Opens the page in the browser of the desktop.
-fn open(url: &str) {
+pub(crate) fn open(url: &str) {
     let (program, before): (&str, &[&str]) = match std::env::consts::OS {
         "macos" => ("open", &[]),
         "windows" => ("cmd", &["/C", "start", ""]),

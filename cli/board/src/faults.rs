@@ -18,7 +18,7 @@ pub enum Wrong {
     Reversed(usize),
     /// A channel has noise of this RMS, full scales.
     Noisy(usize, f64),
-    /// A channel is at full scale: its range is too small.
+    /// A channel is at full scale at ±10 V, and not at ±12.5 V: its gain is too large.
     Clipped(usize),
     /// No current flows to a pad: its wire or its switch is open.
     PadMissing(usize),
@@ -85,7 +85,14 @@ impl Faults {
     }
 
     /// What the core receives of a slot: `codes` are of its window, a sample after the other, each of all channels.
-    pub fn act(&mut self, pad: usize, codes: &mut Vec<i32>, (channels, limit): (usize, i32)) {
+    /// `gains` are those of the ADC's ranges against ±10 V.
+    pub fn act(
+        &mut self,
+        pad: usize,
+        codes: &mut Vec<i32>,
+        (channels, limit): (usize, i32),
+        gains: &[f64],
+    ) {
         let wrong = std::mem::take(&mut self.wrong);
         for fault in &wrong {
             match *fault {
@@ -101,7 +108,12 @@ impl Faults {
         }
         let peaks: Vec<i32> = (0..channels).map(|channel| peak(codes, channel, channels)).collect();
         for sample in codes.chunks_mut(channels) {
-            wrong.iter().for_each(|fault| self.at_sample(*fault, sample, (&peaks, limit)));
+            wrong.iter().for_each(|fault| self.at_sample(*fault, sample, (&peaks, limit), gains));
+            for (code, gain) in sample.iter_mut().zip(gains) {
+                if *gain != 1.0 {
+                    *code = clamped(gain * f64::from(*code), limit);
+                }
+            }
             let before = sample.to_vec();
             wrong.iter().for_each(|fault| on_lines(*fault, sample, &before));
         }
@@ -120,22 +132,29 @@ impl Faults {
         }
     }
 
-    fn at_sample(&mut self, fault: Wrong, sample: &mut [i32], (peaks, limit): (&[i32], i32)) {
-        let clamped = |code: f64| code.round().clamp(-f64::from(limit) - 1.0, f64::from(limit));
+    fn at_sample(
+        &mut self,
+        fault: Wrong,
+        sample: &mut [i32],
+        (peaks, limit): (&[i32], i32),
+        gains: &[f64],
+    ) {
         match fault {
             Wrong::Open(channel) => sample[channel] = 0,
             Wrong::Swapped(a, b) => sample.swap(a, b),
             Wrong::Reversed(channel) => {
-                sample[channel] = clamped(-f64::from(sample[channel])) as i32;
+                sample[channel] = clamped(-f64::from(sample[channel]), limit);
             }
             Wrong::Noisy(channel, rms) => {
                 let noise = rms * f64::from(limit) * self.gaussian();
-                sample[channel] = clamped(f64::from(sample[channel]) + noise) as i32;
+                sample[channel] = clamped(f64::from(sample[channel]) + noise, limit);
             }
             Wrong::Clipped(channel) => {
-                // Three times full scale at the peak, whatever flows.
-                let gain = 3.0 * f64::from(limit) / f64::from(peaks[channel].max(1));
-                sample[channel] = clamped(gain * f64::from(sample[channel])) as i32;
+                // A tenth beyond full scale at the peak, whatever flows; the range acts on it before it is limited.
+                let gain = 1.1 * f64::from(limit) / f64::from(peaks[channel].max(1));
+                let range = gains.get(channel).copied().unwrap_or(1.0);
+                let code = clamped(gain * range * f64::from(sample[channel]), limit);
+                sample[channel] = (f64::from(code) / range).round() as i32;
             }
             _ => (),
         }
@@ -169,6 +188,11 @@ impl Faults {
     }
 }
 
+/// A code within the ADC's range.
+fn clamped(code: f64, limit: i32) -> i32 {
+    code.round().clamp(-f64::from(limit) - 1.0, f64::from(limit)) as i32
+}
+
 fn peak(codes: &[i32], channel: usize, channels: usize) -> i32 {
     codes
         .iter()
@@ -195,7 +219,7 @@ mod tests {
     fn acted(wrong: &[Wrong], codes: &[i32]) -> Vec<i32> {
         let mut faults = Faults { wrong: wrong.to_vec(), ..Faults::none(1) };
         let mut codes = codes.to_vec();
-        faults.act(0, &mut codes, (5, 32767));
+        faults.act(0, &mut codes, (5, 32767), &[1.0; 5]);
         codes
     }
 

@@ -95,16 +95,22 @@ pub struct Described {
 /// # Errors
 /// A name that is none, a file that cannot be used; the message names option or file, and what was expected.
 pub fn target(asked: &Asked) -> Result<Target> {
-    match asked.port.as_str() {
-        "virtual" => virtual_board(asked, SCENE),
-        port => match port.strip_prefix("virtual:") {
-            Some(scene) => virtual_board(asked, scene),
-            None => real_board(asked),
-        },
-    }
+    let is_virtual = asked.port == "virtual" || asked.port.starts_with("virtual:");
+    if is_virtual { virtual_board(asked) } else { real_board(asked) }
 }
 
-fn virtual_board(asked: &Asked, scene: &str) -> Result<Target> {
+/// The virtual board of a name alone, not yet running: for programs that step it in device time.
+///
+/// # Errors
+/// As [`target`].
+pub fn virtual_device(asked: &Asked) -> Result<VirtualBoard> {
+    let scene = asked.port.strip_prefix("virtual:").unwrap_or(SCENE);
+    let scene = inputs::scene(scene, &asked.set)?;
+    let profile = inputs::profile(asked.profile.as_ref().unwrap_or(&scene.profile))?;
+    VirtualBoard::new(scene, 0, &profile, |case| made(case, asked.baud))
+}
+
+fn virtual_board(asked: &Asked) -> Result<Target> {
     let printed = [
         ("--control", asked.control.is_some()),
         ("--dac", asked.dac.is_some()),
@@ -114,9 +120,7 @@ fn virtual_board(asked: &Asked, scene: &str) -> Result<Target> {
     if let Some((option, _)) = printed.iter().find(|(_, is)| *is) {
         bail!("{option}: expected none with a virtual board: its scene says how it drives");
     }
-    let scene = inputs::scene(scene, &asked.set)?;
-    let profile = inputs::profile(asked.profile.as_ref().unwrap_or(&scene.profile))?;
-    let board = VirtualBoard::new(scene, 0, &profile, |case| made(case, asked.baud))?;
+    let board = virtual_device(asked)?;
     let (case, made) = (board.case().clone(), board.made());
     let device = match &asked.calibration {
         Some(file) => DeviceCalibration::read(file)?,

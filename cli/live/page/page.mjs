@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // The page: connects the source to the model, the model to what is drawn, and controls to commands.
 
+import { Board } from './board.mjs';
 import { fill, Knobs, readLink, SPANS, SPEEDS, writeLink } from './controls.mjs';
 import { fixed, readColours } from './draw.mjs';
 import { Loupe } from './loupe.mjs';
@@ -29,6 +30,7 @@ const bars = new Bars($('bars'), model);
 const table = new PadTable($('pads'), model, choose);
 const knobs = new Knobs($('knobs'), model, send, (set) => open({ ...opened, set: { ...opened.set, ...set } }));
 const leader = new Leader(model, send);
+const board = new Board({ group: $('board'), arm: $('arm'), disable: $('disable'), line: $('line-now') }, model, send);
 let speech = new Speech($('speech'), model);
 /** What is open, and what the page's address asks for, as links say it. */
 let [opened, asked] = [{ set: {} }, readLink(location.search)];
@@ -74,6 +76,7 @@ const MESSAGES = {
   },
   slot: (message) => slotPlot.show(message),
   recorded: download,
+  note: (message) => notice(message.text),
   error: (message) => notice(message.message),
 };
 
@@ -87,7 +90,7 @@ function acceptHello(hello) {
   model.acceptHello(hello);
   if (!isOwn(hello)) opened = { scene: hello.scene, case: hello.case_index || null, set: hello.set };
   else if (!opened.preset) opened.case = hello.case_index || null;
-  document.body.className = `${hello.truth ? '' : 'no-truth'} ${hello.hand ? '' : 'no-hand'}`;
+  document.body.className = `${hello.truth ? '' : 'no-truth'} ${hello.hand ? '' : 'no-hand'} ${hello.source}`;
   document.title = `${hello.scene} – hapticore live`;
   const scenes = new Set([hello.scene, ...hello.scenes]);
   fill($('scene'), [...scenes].sort().map((name) => [name, name]), hello.scene);
@@ -97,6 +100,7 @@ function acceptHello(hello) {
   fill($('speed'), [...SPEEDS, ...other], hello.speed || 1);
   write($('facts'), `${hello.fidelity} core · profile ${hello.profile} · slots of ${hello.slot_us} µs`);
   showTexts(hello);
+  board.build();
   knobs.build();
   bars.build();
   table.build();
@@ -117,6 +121,7 @@ function isOwn({ presets, scene, set }) {
 
 /** Presets, hint and warnings. */
 function showTexts({ presets, title, summary, scene, walls, warnings }) {
+  if (board.is) return void write($('hint'), `${title}. Values are measured; nothing here knows the truth.`);
   const current = presets.find(({ name }) => name === opened.preset);
   const what = walls.length ? 'into the hatched wall: the deeper it goes, the harder the sheet brakes it'
     : 'and see what the core measures';
@@ -225,7 +230,7 @@ function paintStrips(now_ms) {
 function paintText(now_ms) {
   text_ms = now_ms;
   paintStrips(now_ms);
-  for (const part of [table, knobs]) part.draw();
+  for (const part of [table, knobs, board]) part.draw();
   for (const part of [strips, bars]) part.drawValues();
   const { shown, status, frozen } = model;
   const slow = !paused && !model.lost && status.speed < 0.95 * status.asked_speed;

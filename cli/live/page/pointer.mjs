@@ -14,7 +14,8 @@ export class Leader {
   }
 
   lead(pad, mm) {
-    const { sheet_mm, pad_diameter_mm } = this.model.hello;
+    const { sheet_mm, pad_diameter_mm, leads } = this.model.hello;
+    if (!leads) return; // The hand that leads the pads of a board is a real one.
     const inside = mm.map((value, axis) => {
       const reach = (sheet_mm[axis] - pad_diameter_mm) / 2;
       return Number(Math.min(reach, Math.max(-reach, value)).toFixed(3));

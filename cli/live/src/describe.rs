@@ -62,6 +62,7 @@ pub fn hello(opening: &Opening, fidelity: Fidelity, stepper: &Stepper) -> Result
         columns: COLUMNS.to_vec(),
         inputs: inputs(stepper, &document, &set),
         settings: settings(&document),
+        leads: true,
         hand: document.contains_key("hand"),
         controller: case.plan().is_some(),
         walls: walls(stepper),

@@ -138,7 +138,9 @@ impl Guard {
             return forbidden("Origin: expected this server's own page, or none".into());
         }
         if head.path == "/ws" && !self.has_token(&head.query) {
-            return forbidden("token: expected the one that hapticore live has printed".into());
+            return forbidden(
+                "token: expected the one in the address that hapticore has printed".into(),
+            );
         }
         Ok(())
     }

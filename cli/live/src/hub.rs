@@ -79,6 +79,8 @@ pub struct Hub {
     clients: BTreeMap<ClientId, Client>,
     /// The client for which time stands.
     stepper: Option<ClientId>,
+    /// The client that has armed a board's drive: no other one drives, and its leaving takes the drive to 0 V.
+    driver: Option<ClientId>,
     sender: SyncSender<Message>,
     inbox: Receiver<Message>,
     begun: Instant,
@@ -109,6 +111,7 @@ impl Hub {
             pace: Pace::new(0.0, speed),
             clients: BTreeMap::new(),
             stepper: None,
+            driver: None,
             sender,
             inbox,
             begun: Instant::now(),
@@ -169,6 +172,9 @@ impl Hub {
 
     /// Whether no slot becomes due: nobody watches, time stands, or the source has stopped.
     fn is_idle(&self) -> bool {
+        if self.source.is_real() {
+            return self.stopped.is_some();
+        }
         self.clients.is_empty() || self.pace.stands() || self.stopped.is_some()
     }
 
@@ -189,6 +195,16 @@ impl Hub {
 
     /// Runs the next slot; false where the source has stopped.
     fn run_slot(&mut self) -> bool {
+        loop {
+            match self.run_step() {
+                Some(more) if more => (),
+                other => return other.is_some(),
+            }
+        }
+    }
+
+    /// Lets the source advance once, and says whether more has happened already; none where it has stopped.
+    fn run_step(&mut self) -> Option<bool> {
         let slot = self.source.slot();
         let source = &mut self.source;
         // An assertion that fails is the end of this source, but not of the server.
@@ -200,7 +216,7 @@ impl Hub {
             Ok(step) => step,
             Err(message) => {
                 self.stop(format!("the source has stopped: {message}; open a scene again"));
-                return false;
+                return None;
             }
         };
         if let Some((slot, row)) = step.row {
@@ -213,7 +229,10 @@ impl Hub {
         if let Some(event) = step.event {
             self.tell_all(&Answer::Event(event));
         }
-        true
+        if let Some(text) = step.note {
+            self.tell_all(&Answer::Note { text });
+        }
+        Some(step.more)
     }
 
     fn stop(&mut self, message: String) {
@@ -261,6 +280,7 @@ impl Hub {
             inputs: self.source.inputs(),
             opening: self.next.clone(),
             stopped: self.stopped.clone(),
+            line: self.source.line(),
         };
         for client in self.clients.values() {
             let status = Status { dropped: client.outbox.dropped(), ..status.clone() };

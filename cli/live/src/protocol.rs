@@ -11,6 +11,8 @@
 //! | `{"type":"set","pad":0,"load_g":60}` | sets one input of `hello.inputs`, without its `pad.` |
 //! | `{"type":"target","pad":0,"n":0.3}` | force that the controller gives, N |
 //! | `{"type":"wall","x_mm":-1.5,"y_mm":0}` | moves the walls; `"mm"` is `"x_mm"`; `"off":true` takes them away |
+//! | `{"type":"arm","on":true}` | lets a board's drive follow its targets, while this client stays; `false` takes it to 0 V |
+//! | `{"type":"disable"}`, `{"type":"enable"}` | disables a board: pads open, drives at 0 V; brings it up again, its drive off |
 //! | `{"type":"pace","speed":0.1}` | device time by wall time; 0 pauses |
 //! | `{"type":"step","slots":8}` | runs slots now; time stands until the next `pace` or until this client leaves |
 //! | `{"type":"slot"}` | asks for the ADC codes of the last slot |
@@ -25,6 +27,7 @@
 //! | `frames` | up to 60 times a second: the latest of each pad, as columns |
 //! | `status` | every second |
 //! | `event` | a pad changes its state |
+//! | `note` | a board is found, refused, lost, restarted: what happened, what to do |
 //! | `done`, `error` | exactly one for each command with an `id`; errors also without |
 //! | `slot`, `recorded` | answers to `slot` and `record`, before `done` |
 //! | `rows`, or binary | slots that were subscribed to |
@@ -100,6 +103,15 @@ pub enum Command {
         #[serde(skip_serializing_if = "std::ops::Not::not")]
         off: bool,
     },
+    /// Lets a board's drive follow its targets, or takes it to 0 V.
+    Arm {
+        /// It follows.
+        on: bool,
+    },
+    /// Disables a board.
+    Disable,
+    /// Brings a disabled board up again, its drive off.
+    Enable,
     /// Sets how fast device time runs.
     Pace {
         /// Device time by wall time; 0 pauses.
@@ -220,6 +232,11 @@ pub enum Answer {
     Status(Status),
     /// A pad changes its state.
     Event(Event),
+    /// Something that happened to a board.
+    Note {
+        /// What happened, and what to do.
+        text: String,
+    },
     /// A command was carried out, before this slot.
     Done {
         /// The command's.
@@ -264,7 +281,7 @@ pub struct Hello {
     pub version: String,
     /// Commit that it was built from, where that is known.
     pub commit: Option<String>,
-    /// `scene`; a board and a recording will have words of their own.
+    /// `scene` or `board`.
     pub source: &'static str,
     /// The scene's name.
     pub scene: String,
@@ -307,6 +324,8 @@ pub struct Hello {
     pub inputs: Vec<InputInfo>,
     /// Keys of the scene that are worth changing: with `open`, in its `set`.
     pub settings: Vec<SettingInfo>,
+    /// Clients can lead fingers.
+    pub leads: bool,
     /// The pads hang on a finger by a spring.
     pub hand: bool,
     /// A controller drives the pads.
@@ -447,6 +466,32 @@ pub struct Status {
     pub opening: Option<String>,
     /// Why the source has stopped, where it has.
     pub stopped: Option<String>,
+    /// The line to the board, of a source that is one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub line: Option<LineStatus>,
+}
+
+/// The line to a board.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub struct LineStatus {
+    /// Its name.
+    pub name: String,
+    /// Where the session is, in a word: `measuring`, `armed`, `off`, `silent` …
+    pub phase: &'static str,
+    /// The drive follows its targets.
+    pub armed: bool,
+    /// Age of the last packet, ms.
+    pub age_ms: f64,
+    /// Frames and heartbeats that have come.
+    pub packets: u64,
+    /// Frames that were lost on the line.
+    pub lost: u64,
+    /// Frames that the board has dropped, since its line was busy.
+    pub dropped: u64,
+    /// Packets that were damaged on the line.
+    pub damaged: u64,
+    /// Packets that report a refused command.
+    pub refused: u64,
 }
 
 /// A pad changes its state.

@@ -19,6 +19,7 @@ use crate::http::{self, Guard, Head, PATIENCE};
 use crate::hub::{Hub, Message};
 use crate::protocol::Opening;
 use crate::setup::Setup;
+use crate::source::Source;
 use bind::listeners;
 use talk::talk;
 
@@ -68,14 +69,34 @@ impl Server {
         let source = setup.source(&opening).map_err(|message| anyhow!(message))?;
         let hub = Hub::new(setup, opening, source, speed);
         let token = listen.map(|(_, token)| token);
+        Ok(Server::with(listeners, hub, Guard { port, listen: address, token }))
+    }
+
+    /// Binds the port for a source that no client replaces, a board. A token is always needed: it may be high voltage.
+    ///
+    /// # Errors
+    /// A port in use.
+    pub fn of_board(
+        source: Box<dyn Source>,
+        port: u16,
+        listen: Option<IpAddr>,
+        token: String,
+    ) -> Result<Server> {
+        let listeners = listeners(port, listen)?;
+        let port = listeners[0].local_addr()?.port();
+        let hub = Hub::new(Setup::fixed(), Opening::default(), source, 1.0);
+        Ok(Server::with(listeners, hub, Guard { port, listen, token: Some(token) }))
+    }
+
+    fn with(listeners: Vec<TcpListener>, hub: Hub, guard: Guard) -> Server {
         let shared = Shared {
-            guard: Guard { port, listen: address, token },
+            guard,
             hub: hub.sender(),
             ends: AtomicBool::new(false),
             connections: AtomicUsize::new(0),
             next_client: AtomicU64::new(0),
         };
-        Ok(Server { listeners, shared: Arc::new(shared), hub })
+        Server { listeners, shared: Arc::new(shared), hub }
     }
 
     /// The address for a browser.

@@ -17,14 +17,19 @@ use crate::source::Source;
 
 /// Sets up sources.
 pub struct Setup {
-    /// What the server was started with: a file that a client may open again.
-    first: Opening,
+    /// What the server was started with: a file that a client may open again; none where no scene can be opened.
+    first: Option<Opening>,
 }
 
 impl Setup {
     /// For a server that is started with a scene.
     pub fn new(first: &Opening) -> Setup {
-        Setup { first: first.clone() }
+        Setup { first: Some(first.clone()) }
+    }
+
+    /// For a server of one source, which no client replaces.
+    pub fn fixed() -> Setup {
+        Setup { first: None }
     }
 
     /// A client's opening with what it leaves open. A client reads no files but those of the command line: it may be a
@@ -33,15 +38,18 @@ impl Setup {
     /// # Errors
     /// A scene or a profile that is none of the bundled ones.
     pub fn allowed(&self, opening: Opening, current: &Opening) -> Result<Opening, String> {
+        let Some(first) = &self.first else {
+            return Err("open: expected a page of scenes, this one shows a board".into());
+        };
         let names: Vec<&str> = gallery::all().iter().map(|(name, _)| *name).collect();
-        if opening.scene != self.first.scene && !names.contains(&opening.scene.as_str()) {
+        if opening.scene != first.scene && !names.contains(&opening.scene.as_str()) {
             let cited: String = opening.scene.chars().take(40).collect();
             return Err(format!("scene: expected one of {}, got {cited:?}", names.join(", ")));
         }
         let of_set = opening.set.iter().filter(|(key, _)| key == "profile").map(|(_, value)| value);
         let profiles = opening.profile.iter().chain(of_set);
         let known = |name: &&String| {
-            Some(*name) == self.first.profile.as_ref()
+            Some(*name) == first.profile.as_ref()
                 || !looks_like_a_file(name.trim_matches(['"', '\'']))
         };
         if profiles.clone().any(|name| !known(&name)) {

@@ -127,7 +127,7 @@ impl Source for Simulated {
         };
         let event = self.pads.add(&row, &self.walls);
         self.rows += 1;
-        Ok(Step { row: Some((self.rows - 1, row)), event })
+        Ok(Step { row: Some((self.rows - 1, row)), event, ..Step::default() })
     }
 
     fn frames(&self) -> Frames {

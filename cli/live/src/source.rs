@@ -3,7 +3,9 @@
 
 use hapticore_run::record::Row;
 
-use crate::protocol::{Command, Event, Frames, Hello, Recorded, Recording, SlotCodes};
+use crate::protocol::{
+    Command, Event, Frames, Hello, LineStatus, Recorded, Recording, SlotCodes,
+};
 
 /// A display that advances slot by slot.
 pub trait Source: Send {
@@ -42,6 +44,16 @@ pub trait Source: Send {
     /// # Errors
     /// Why they cannot be written so.
     fn record(&self, to: Recording) -> Result<Recorded, String>;
+
+    /// Its time is that of the world: it runs on without clients, and no client stops, steps or replaces it.
+    fn is_real(&self) -> bool {
+        false
+    }
+
+    /// The line to a board, where it has one.
+    fn line(&self) -> Option<LineStatus> {
+        None
+    }
 }
 
 /// What a slot has led to.
@@ -51,4 +63,8 @@ pub struct Step {
     pub row: Option<(usize, Row)>,
     /// A pad has changed its state.
     pub event: Option<Event>,
+    /// Something that all clients should read.
+    pub note: Option<String>,
+    /// More has happened already: the next step takes no time.
+    pub more: bool,
 }

@@ -125,6 +125,9 @@ pub struct Session {
     /// Surface of each wall, mm, and whether its inside is right of it.
     surfaces: Vec<Option<(f64, bool)>>,
     spoke_at: Instant,
+    since_armed: Instant,
+    /// A frame without faults has come since the drive was armed.
+    was_clear: bool,
 }
 
 impl Session {
@@ -145,6 +148,8 @@ impl Session {
             targets_n: vec![0.0; pads],
             surfaces: vec![None; pads],
             spoke_at: now,
+            since_armed: now,
+            was_clear: false,
             plan,
         }
     }
@@ -222,7 +227,8 @@ impl Session {
         commands.extend(tuned.map_err(|error| Refusal(error.to_string()))?);
         match self.send(&commands) {
             true => {
-                self.phase = Phase::Armed;
+                (self.phase, self.was_clear) = (Phase::Armed, false);
+                self.since_armed = Instant::now();
                 Ok(())
             }
             false => refuse("arm: the line has ended"),
@@ -246,6 +252,15 @@ impl Session {
         self.phase = Phase::Off;
     }
 
+    /// Brings the board up with another plan of the same profile, its drive off.
+    pub fn begin_again(&mut self, plan: Plan) {
+        debug_assert_eq!(plan.profile, self.plan.profile);
+        (self.plan, self.attempts, self.refused) = (plan, 0, None);
+        if self.link.is_connected() {
+            self.identify();
+        }
+    }
+
     /// Brings a disabled or refused board up again, its drive off.
     pub fn enable(&mut self) {
         if matches!(self.phase, Phase::Off | Phase::Refused) {
@@ -263,7 +278,7 @@ impl Session {
         if pad >= pads {
             return refuse(format!("pad: expected below {pads}, got {pad}"));
         }
-        let cap_n = self.plan.tuning.as_ref().map_or(0.0, |tuning| tuning.force_cap);
+        let cap_n = self.largest_target_n();
         if !(0.0..=cap_n).contains(&newtons) {
             return refuse(format!("target: expected 0 to {cap_n:.3} N, got {newtons}"));
         }
@@ -285,6 +300,13 @@ impl Session {
         }
         self.surfaces[pad] = Some((mm, right));
         self.tell(drive::surface(&self.plan.profile, pad as u8, mm, right))
+    }
+
+    /// The largest target that is taken, N: the tuning's cap, or what the controller's word holds.
+    pub fn largest_target_n(&self) -> f64 {
+        let cap_n = self.plan.tuning.as_ref().map_or(0.0, |tuning| tuning.force_cap);
+        let format = self.plan.profile.control.as_ref().map(|control| control.target);
+        cap_n.min(format.map_or(0.0, |format| format.real(format.max_code() as i64)))
     }
 
     /// Sends a word of the drive while it is armed.
@@ -453,8 +475,10 @@ impl Session {
             return;
         }
         let faults = packet.status.driven.map(|driven| driven.faults).unwrap_or_default();
-        // Faults from before the drive was armed are cleared by that, some frames later.
-        if self.phase == Phase::Armed && faults.any() && Instant::now() > self.settled_at {
+        // Frames from before the drive was armed still have the faults that arming clears.
+        let is_old = !self.was_clear && self.since_armed.elapsed() < IN_FLIGHT;
+        self.was_clear |= !faults.any();
+        if self.phase == Phase::Armed && faults.any() && !is_old {
             report(SessionEvent::Note(words::faults(faults)));
             self.disarm();
         }
@@ -495,10 +519,7 @@ impl Session {
             return;
         }
         if let Ok(commands) = self.positions() {
-            let settled_at = self.settled_at;
             self.send(&commands);
-            // Targets that are repeated do not excuse faults.
-            self.settled_at = settled_at;
         }
     }
 }

@@ -8,6 +8,7 @@ mod documents;
 mod flags;
 mod gallery;
 mod hdl;
+mod host;
 mod knobs;
 mod lab;
 mod lifted;

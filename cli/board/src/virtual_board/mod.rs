@@ -92,6 +92,8 @@ struct State {
     /// When the test of a line is over, and the line.
     test: Option<(f64, usize)>,
     core: Option<Core>,
+    /// Words were written since it was made.
+    is_core_old: bool,
     /// When the packet on the line ends.
     busy_until_s: f64,
     next_heartbeat_s: f64,
@@ -181,6 +183,13 @@ impl VirtualBoard {
         match (driven, control) {
             (Some(word), Some(control)) => full_scale_v * control.drive.real(word),
             _ => 0.0,
+        }
+    }
+
+    /// Takes the scene's haptic voltage to zero, where no controller drives the pads.
+    pub fn switch_haptic_off(&mut self) {
+        for pad in 0..self.profile.pads as usize {
+            self.set_drive(pad, self.now_s, 0.0);
         }
     }
 
@@ -296,16 +305,12 @@ impl VirtualBoard {
 
     /// Words of the calibration hold immediately.
     fn calibrate(&mut self) {
-        if self.is_enabled() {
-            self.make_core();
-        }
+        self.state.is_core_old = true;
     }
 
     fn drive_word(&mut self, word: DriveWord, code: i64) {
         let Some(drive) = &mut self.state.drive else { return };
-        if drive.write(word, code) && self.is_enabled() {
-            return self.make_core();
-        }
+        self.state.is_core_old |= drive.write(word, code);
         let pad = match word {
             DriveWord::Target(pad) | DriveWord::Surface { pad, .. } => usize::from(pad),
             _ => 0,
@@ -339,7 +344,7 @@ impl VirtualBoard {
                 let slots = (self.now_s / self.case.clock.seconds(1)).ceil() as usize;
                 let served = self.profile.pads as usize;
                 self.slot = slots.next_multiple_of(served).max(self.slot.next_multiple_of(served));
-                self.make_core();
+                self.state.is_core_old = true;
             }
             (true, false) => self.disable(),
             (false, false) => self.state.drive.iter_mut().for_each(DriveWords::disable),
@@ -377,7 +382,7 @@ impl VirtualBoard {
         let calibration = sensor.calibration(&self.profile, &self.like);
         let core = Core::new(&self.profile, &calibration, drive.as_ref());
         // The profile of a case with a controller has one.
-        self.state.core = core.ok();
+        (self.state.core, self.state.is_core_old) = (core.ok(), false);
         self.ticks = (1e3 * self.now_s) as u64;
     }
 
@@ -408,11 +413,15 @@ impl VirtualBoard {
     }
 
     fn run_slot(&mut self) -> Result<()> {
+        if self.state.is_core_old {
+            self.make_core();
+        }
         let (signals, _) = self.maker.signals(self.slot);
         let Signals::Samples { mut codes, .. } = signals else { return Ok(()) };
         let pad = self.slot % self.profile.pads as usize;
         let limit = self.profile.formats.adc.max_code() as i32;
-        self.faults.act(pad, &mut codes, (self.profile.channels(), limit));
+        let gains = gains(self.state.part.inputs().0);
+        self.faults.act(pad, &mut codes, (self.profile.channels(), limit), &gains);
         let end_s = self.case.clock.seconds(self.slot + 1);
         self.slot += 1;
         let core = self.state.core.as_mut().context("an enabled board has a core")?;
@@ -477,6 +486,15 @@ impl VirtualBoard {
     }
 }
 
+/// Codes of the ADC's channels by those at ±10 V, of the registers of its ranges.
+fn gains(ranges: [u8; 4]) -> [f64; 8] {
+    const VOLTS: [f64; 5] = [2.5, 5.0, 6.25, 10.0, 12.5];
+    std::array::from_fn(|channel| {
+        let range = ranges[channel / 2] >> (4 * (channel % 2)) & 0xf;
+        VOLTS.get(usize::from(range)).map_or(1.0, |volts| 10.0 / volts)
+    })
+}
+
 impl State {
     fn new(profile: &Profile, words: usize, clock_hz: f64) -> Self {
         let pads = profile.pads as usize;
@@ -493,6 +511,7 @@ impl State {
             told: [None; Register::ALL.len()],
             test: None,
             core: None,
+            is_core_old: true,
             busy_until_s: 0.0,
             next_heartbeat_s: PAUSE_CLOCKS / clock_hz,
         }

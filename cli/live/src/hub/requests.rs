@@ -20,6 +20,10 @@ impl Hub {
             }
             Message::Leave(client) => {
                 self.clients.remove(&client);
+                if self.driver == Some(client) {
+                    self.driver = None;
+                    let _ = self.source.apply(&Command::Arm { on: false });
+                }
                 if self.stepper == Some(client) {
                     self.stepper = None;
                     self.pace.set_stepped(false);
@@ -64,6 +68,9 @@ impl Hub {
     }
 
     fn carry_out(&mut self, client: ClientId, command: Command) -> Result<(), String> {
+        if self.source.is_real() {
+            self.check_real(client, &command)?;
+        }
         match command {
             Command::Pace { speed } => {
                 self.pace.set_speed(speed);
@@ -81,10 +88,42 @@ impl Hub {
             }
             input => match &self.stopped {
                 Some(stopped) => return Err(stopped.clone()),
-                None => self.source.apply(&input)?,
+                None => {
+                    self.source.apply(&input)?;
+                    self.follow_driver(client, &input);
+                }
             },
         }
         Ok(())
+    }
+
+    /// What clients of a board may not ask for. Anybody may take the drive to 0 V.
+    fn check_real(&self, client: ClientId, command: &Command) -> Result<(), String> {
+        let drives = matches!(
+            command,
+            Command::Arm { on: true }
+                | Command::Target { .. }
+                | Command::Set { .. }
+                | Command::Wall { .. }
+        );
+        match (command, self.driver) {
+            (Command::Pace { .. } | Command::Step { .. }, _) => {
+                Err("expected a simulated source: a board's time goes on".into())
+            }
+            (_, Some(driver)) if drives && driver != client => {
+                Err("another client has armed the drive: close that page first".into())
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Who has armed the drive, after a command that was carried out.
+    fn follow_driver(&mut self, client: ClientId, command: &Command) {
+        match command {
+            Command::Arm { on: true } => self.driver = Some(client),
+            Command::Arm { on: false } | Command::Disable => self.driver = None,
+            _ => (),
+        }
     }
 
     /// Runs slots at once, and lets time stand from then on. All of it is done before the next request.

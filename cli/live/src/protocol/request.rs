@@ -29,12 +29,15 @@ pub struct BadRequest {
 }
 
 /// The types of commands.
-const TYPES: [&str; 11] = [
+const TYPES: [&str; 14] = [
     "lead",
     "release",
     "set",
     "target",
     "wall",
+    "arm",
+    "disable",
+    "enable",
     "pace",
     "step",
     "slot",
@@ -100,6 +103,9 @@ impl Fields<'_> {
             "set" => Command::Set { pad: self.pad()?, setting: self.setting()? },
             "target" => Command::Target { pad: self.pad()?, n: self.number("n")? },
             "wall" => self.wall()?,
+            "arm" => Command::Arm { on: self.required("on", "true or false", Value::as_bool)? },
+            "disable" => Command::Disable,
+            "enable" => Command::Enable,
             "pace" => Command::Pace { speed: self.speed()? },
             "step" => Command::Step { slots: self.slots()? },
             "slot" => Command::Slot,

@@ -21,7 +21,7 @@ const SLOW: [&str; 5] = [
 ];
 
 /// Commands that are never run here, by a word of theirs, each with its reason.
-const NEVER: [(&str, &str); 8] = [
+const NEVER: [(&str, &str); 9] = [
     ("--synth", "needs the HDL tools, minutes; synth/tests/toolchain runs a synthesis"),
     ("hq", "needs a server of HyperQueue"),
     ("parallel", "needs GNU parallel; sweep.rs runs the same lines where it is there"),
@@ -29,6 +29,7 @@ const NEVER: [(&str, &str); 8] = [
     ("S/chunks.jsonl", "one of a page's lines for an engine; sweep.rs runs such lines"),
     ("run/profile.toml", "needs the run of a slow line; printed_loop.rs goes the same way"),
     ("live", "runs until Ctrl-C; live.rs starts it"),
+    ("host", "runs until Ctrl-C, or in real time; host.rs starts it"),
     ("-p", "another program of this workspace, which takes minutes"),
 ];
 
