@@ -5,7 +5,7 @@
 //! and checks again, until nothing is named; a finding of something that is sound counts as wrong.
 
 use fastrand::Rng;
-use hapticore_board::check::{Bench, DeviceTime, Finding, Report, check};
+use hapticore_board::check::{Bench as _, DeviceTime, Finding, Report, check};
 use hapticore_board::faults::Wrong;
 use hapticore_board::target::{Asked, virtual_device};
 use hapticore_host::DeviceCalibration;
@@ -23,14 +23,8 @@ struct Device {
 fn device(scene: &'static str) -> Device {
     let bench = bench(scene);
     let calibration = (**bench.board.case().device).clone();
-    let parts = bench.parts_mm().len();
     let profile = bench.profile();
-    Device {
-        scene,
-        calibration,
-        pads: profile.pads as usize / parts,
-        terminals: profile.terminals.x.len(),
-    }
+    Device { scene, calibration, pads: profile.pads as usize, terminals: profile.terminals.x.len() }
 }
 
 fn bench(scene: &str) -> DeviceTime {

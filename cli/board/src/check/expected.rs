@@ -77,9 +77,9 @@ impl Expected {
         self.shares.first().map_or(1, Vec::len)
     }
 
-    /// How many pads, split ones counted once.
-    pub fn pads(&self) -> usize {
-        self.pads
+    /// How many pads as the board numbers them, each part of a split one with a select line of its own.
+    pub fn selects(&self) -> usize {
+        self.pads * self.parts()
     }
 
     /// How many terminals.

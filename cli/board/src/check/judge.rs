@@ -57,10 +57,15 @@ pub(super) fn judge(expected: &Expected, data: Vec<Datum>, clipped: Vec<usize>) 
     }
     let missing = missing(expected, &data);
     findings.extend(missing.iter().map(|pad| Finding::PadMissing { pad: *pad }));
-    let of_pad = |datum: &&Datum| !missing.contains(&(datum.pad / expected.parts()));
+    let of_pad = |datum: &&Datum| !missing.contains(&datum.pad);
     let there: Vec<Datum> = data.iter().filter(of_pad).copied().collect();
     if there.is_empty() {
         return Report { findings: vec![Finding::NoSense], compared: Vec::new() };
+    }
+    // Noise moves the means of amplitudes, too: wires are judged once it is gone.
+    if let Some(noisy) = noise::findings(expected, &there) {
+        findings.push(noisy);
+        return Report { findings, compared: compared(expected, &there) };
     }
     let (faults, cost) = best(expected, &there, 2 - findings.len().min(2));
     let terms = 3.0 * there.len() as f64;
@@ -69,7 +74,6 @@ pub(super) fn judge(expected: &Expected, data: Vec<Datum>, clipped: Vec<usize>) 
     } else {
         findings.extend(faults.iter().map(|fault| fault.finding()));
     }
-    findings.extend(noise::findings(expected, &there));
     Report { findings, compared: compared(expected, &there) }
 }
 
@@ -87,10 +91,10 @@ fn missing(expected: &Expected, data: &[Datum]) -> Vec<usize> {
     all.sort_by(f64::total_cmp);
     let usual = all[all.len() * 3 / 4];
     let is_missing = |pad: &usize| {
-        let mut of_pad = data.iter().filter(|datum| datum.pad / expected.parts() == *pad);
+        let mut of_pad = data.iter().filter(|datum| datum.pad == *pad);
         of_pad.all(|datum| !datum.is_valid() || datum.mean[2] < MISSING * usual)
     };
-    (0..expected.pads()).filter(is_missing).collect()
+    (0..expected.selects()).filter(is_missing).collect()
 }
 
 /// The faults, up to a number, that explain the data best, and their cost.
@@ -120,21 +124,21 @@ fn singles(expected: &Expected) -> Vec<Fault> {
     (0..terminals)
         .flat_map(|terminal| [Fault::Open(terminal), Fault::Reversed(terminal)])
         .chain(pairs(terminals).map(|(a, b)| Fault::Swapped(a, b)))
-        .chain(pairs(expected.pads()).map(|(a, b)| Fault::Pads(a, b)))
+        .chain(pairs(expected.selects()).map(|(a, b)| Fault::Pads(a, b)))
         .collect()
 }
 
 /// What a pad reads at a place with these faults, its capacitance one.
 fn predicted(expected: &Expected, datum: &Datum, faults: &[Fault]) -> ([f64; 3], usize) {
     let (parts, rounds) = (expected.parts(), expected.places.len());
-    let (pad, part) = (datum.pad / parts, datum.pad % parts);
     // Pads that are exchanged are at each other's places.
-    let place = faults.iter().fold(datum.place, |place, fault| match *fault {
-        Fault::Pads(a, b) if pad == a => (place + b + rounds - a) % rounds,
-        Fault::Pads(a, b) if pad == b => (place + a + rounds - b) % rounds,
-        _ => place,
+    let pad = faults.iter().fold(datum.pad, |pad, fault| match *fault {
+        Fault::Pads(a, b) if pad == a => b,
+        Fault::Pads(a, b) if pad == b => a,
+        _ => pad,
     });
-    let mut amplitudes = expected.shares(place, part).to_vec();
+    let place = (datum.place + rounds + pad / parts - datum.pad / parts) % rounds;
+    let mut amplitudes = expected.shares(place, pad % parts).to_vec();
     // Wires are exchanged before what acts on a channel.
     for fault in faults {
         if let Fault::Swapped(a, b) = *fault {
