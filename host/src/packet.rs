@@ -163,6 +163,13 @@ impl Heartbeat {
         self
     }
 
+    /// The same after a word was sent to the ADC, whose first line put out `answer` meanwhile.
+    pub fn with_adc_answer(self, answer: u16, sent: u16, profile: &Profile) -> Self {
+        // A bit more comes in than the answer has, behind what is left of the word.
+        let bits = u64::from(sent) << 17 | u64::from(answer) << 1;
+        self.with_word(Register::Adc.number(), bits, profile)
+    }
+
     /// The low bits of the value last written into a constant's register, as many as fit a word of
     /// a frame, and their number. None of the other registers, which heartbeats do not report.
     pub fn register(&self, register: Register) -> Option<(u64, u8)> {

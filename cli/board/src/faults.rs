@@ -172,6 +172,15 @@ impl Faults {
         self.wrong.iter().for_each(|fault| on_lines(*fault, codes, &before));
     }
 
+    /// What the first data line brings of the ADC's answer to a word for a register.
+    pub fn answer(&self, answer: u16) -> u16 {
+        self.wrong.iter().fold(answer, |answer, fault| match fault {
+            Wrong::LineLow(0) => 0,
+            Wrong::LineHigh(0) => u16::MAX,
+            _ => answer,
+        })
+    }
+
     /// What is left of bytes on the serial line.
     pub fn on_serial_line(&mut self, bytes: &mut Vec<u8>) {
         let Noise { lost, flipped } = self.noise;

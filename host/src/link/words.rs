@@ -46,16 +46,11 @@ pub(super) fn faults(faults: Faults) -> String {
 
 /// Why no packet of a board that is connected can be read.
 pub(super) fn unheard(counts: &Statistics, damaged: u64, baud: u32) -> String {
-    if damaged > 0 {
-        return format!(
-            "{damaged} damaged packets and no whole one: the board was printed for another profile or drive (--profile), or \
-             its line does not run at {baud} baud (--baud)"
-        );
-    }
     match counts.bytes {
         0 => "no bytes come: check the board's power, its configuration (DONE or CDONE high), and the port".into(),
         bytes => format!(
-            "{bytes} bytes and no end of a packet: this is another device's port, or its line does not run at {baud} baud"
+            "{bytes} bytes, {damaged} damaged packets and no whole one: the board was printed for another profile or drive \
+             (--profile, --control), its line does not run at {baud} baud (--baud), or this is another device's port"
         ),
     }
 }

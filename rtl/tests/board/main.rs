@@ -27,4 +27,5 @@ mod pins;
 mod ranges;
 mod safety;
 mod session;
+mod stand_in;
 mod startup;

@@ -29,6 +29,8 @@ pub struct Session {
     decoder: Decoder,
     pub packets: Vec<Result<Packet, Damage>>,
     pub heartbeats: Vec<Heartbeat>,
+    /// All bytes that the board has sent.
+    pub bytes: Vec<u8>,
     closed: Vec<i64>,
     /// The converter of a board with a drive.
     pub dac: Dac,
@@ -57,6 +59,7 @@ impl Session {
             decoder: Decoder::new(profile),
             packets: Vec::new(),
             heartbeats: Vec::new(),
+            bytes: Vec::new(),
             closed: Vec::new(),
             dac: Dac::new(),
             converter: match parameters.drive {
@@ -79,6 +82,7 @@ impl Session {
             self.closed.push(outputs.select);
         }
         let bytes = std::mem::take(&mut self.host.heard);
+        self.bytes.extend(&bytes);
         for told in self.decoder.decode(bytes) {
             match told {
                 Ok(Message::Heartbeat(heartbeat)) => self.heartbeats.push(heartbeat),

@@ -86,7 +86,7 @@ fn a_board_in_another_process_is_reached_over_tcp() {
     // A port that was free a moment ago.
     let port = std::net::TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap().port();
     let address = format!("127.0.0.1:{port}");
-    let board = start(&["host", "virtual", "--serve", &address]);
+    let board = start(&["host", "virtual", "--profile", "small", "--serve", &address]);
     let folder = tempfile::tempdir().unwrap();
     let calibration =
         concat!(env!("CARGO_MANIFEST_DIR"), "/../host/recordings/hockey.calibration.toml");
@@ -105,7 +105,7 @@ import os, pty, subprocess, sys, tty
 hapticore, calibration = sys.argv[1:3]
 board_end, host_end = pty.openpty()
 tty.setraw(board_end)
-board = subprocess.Popen([hapticore, "host", "virtual", "--serve", "-"], stdin=board_end, stdout=board_end)
+board = subprocess.Popen([hapticore, "host", "virtual", "--profile", "small", "--serve", "-"], stdin=board_end, stdout=board_end)
 host = subprocess.run([hapticore, "host", os.ttyname(host_end), "--profile", "small", "--calibration", calibration,
                        "--seconds", "1"], capture_output=True, text=True)
 board.terminate()

@@ -52,7 +52,11 @@ impl Expected {
         let at = |place: &[f64; 2]| {
             let of_part = |part: &[f64; 2]| {
                 let at = [place[0] + part[0], place[1] + part[1]];
-                shares::predicted(known, at, None).context("--calibration: shares on a line")
+                // Near a terminal shares change faster than an interpolation follows.
+                let own =
+                    known.places.iter().find(|row| row[..2] == at).map(|row| row[2..].to_vec());
+                own.or_else(|| shares::predicted(known, at, None))
+                    .context("--calibration: shares on a line")
             };
             parts_mm.iter().map(of_part).collect::<Result<Vec<_>>>()
         };

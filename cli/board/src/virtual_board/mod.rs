@@ -89,6 +89,8 @@ struct State {
     sequence: u16,
     /// Words of heartbeats that were written.
     told: [Option<u64>; Register::ALL.len()],
+    /// What the ADC put out during the last word that was sent to it, and that word; none during a test of a line.
+    answer: Option<(u16, u16)>,
     /// When the test of a line is over, and the line.
     test: Option<(f64, usize)>,
     core: Option<Core>,
@@ -284,11 +286,12 @@ impl VirtualBoard {
                 self.calibrate();
             }
             Register::Adc => {
-                let answer = u64::from(state.part.answer());
+                let answer = self.faults.answer(state.part.answer());
                 let bits: Vec<_> = (0..16).rev().map(|bit| code >> bit & 1).collect();
                 // The part refuses it silently, as it does at its pins.
                 let _ = state.part.word(&bits);
-                state.told[register.number()] = Some(answer << 1 | (code as u64) << 17);
+                state.told[register.number()] = None;
+                state.answer = Some((answer, code as u16));
             }
             Register::Control => (),
         }
@@ -334,7 +337,7 @@ impl VirtualBoard {
             let samples_s = TEST_SAMPLES / self.case.clock.sample_rate_hz();
             let line = (code >> Control::LINE & 7) as usize;
             self.state.test = Some((self.now_s + samples_s, line));
-            self.state.told[Register::Adc.number()] = Some(0);
+            (self.state.told[Register::Adc.number()], self.state.answer) = (Some(0), None);
         } else {
             self.state.test = None;
         }
@@ -469,6 +472,9 @@ impl VirtualBoard {
                 heartbeat = heartbeat.with_word(number, *bits, &self.profile);
             }
         }
+        if let Some((answer, sent)) = self.state.answer {
+            heartbeat = heartbeat.with_adc_answer(answer, sent, &self.profile);
+        }
         self.send(begin_s, &Message::Heartbeat(heartbeat));
         self.state.next_heartbeat_s = self.state.busy_until_s + PAUSE_CLOCKS / self.made.clock_hz;
     }
@@ -509,6 +515,7 @@ impl State {
             overrun: false,
             sequence: 0,
             told: [None; Register::ALL.len()],
+            answer: None,
             test: None,
             core: None,
             is_core_old: true,
