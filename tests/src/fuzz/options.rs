@@ -29,7 +29,11 @@ pub(super) fn check(data: &[u8]) -> bool {
             _ => Ok(()),
         },
         // No option of theirs has a reader of its own.
-        Command::Scenes(_) | Command::Codes(_) | Command::Calibrate(_) | Command::Live(_) => Ok(()),
+        Command::Scenes(_)
+        | Command::Codes(_)
+        | Command::Calibrate(_)
+        | Command::Live(_)
+        | Command::Host(_) => Ok(()),
     };
     read.inspect_err(|error| {
         let line = hapticore::one_line(error);
