@@ -117,7 +117,7 @@ sys.exit(host.returncode)
 
 #[test]
 fn a_board_behind_a_pseudo_terminal_loses_nothing() {
-    if !have("python3") {
+    if !have(&["python3"]) {
         return;
     }
     let calibration =
