@@ -165,8 +165,8 @@ impl Heartbeat {
 
     /// The same after a word was sent to the ADC, whose first line put out `answer` meanwhile.
     pub fn with_adc_answer(self, answer: u16, sent: u16, profile: &Profile) -> Self {
-        // A bit more comes in than the answer has, behind what is left of the word.
-        let bits = u64::from(sent) << 17 | u64::from(answer) << 1;
+        // A bit more comes in than the answer has: the line stays as its last bit was.
+        let bits = u64::from(sent) << 17 | u64::from(answer) << 1 | u64::from(answer & 1);
         self.with_word(Register::Adc.number(), bits, profile)
     }
 

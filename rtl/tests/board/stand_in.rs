@@ -50,7 +50,9 @@ fn a_stand_in_sends_the_bytes_of_the_gateware() {
             }
         }
         let told = *session.heartbeats.last().expect("two have come");
-        let own = Message::Heartbeat(stand_in(&profile, &commands, told.status)).encode(&profile);
+        let own = stand_in(&profile, &commands, told.status);
+        assert_eq!(told, own, "{}", profile.name);
+        let own = Message::Heartbeat(own).encode(&profile);
         assert!(session.bytes.ends_with(&own), "{}: {told:?}", profile.name);
 
         session.send(&[Command::ENABLE]);
