@@ -337,15 +337,19 @@ pub struct HostArgs {
     /// Write rows as CSV to a file
     #[arg(long, value_name = "FILE", conflicts_with = "csv")]
     pub record: Option<PathBuf>,
-    /// The target force of a pad, N; counts once the drive is armed; may be given several times
-    #[arg(long, value_name = "PAD=N", value_parser = target)]
+    /// The target force of a pad, N, as soon as the drive is armed; may be given several times
+    #[arg(long, value_name = "PAD=N", value_parser = target, requires = "arm")]
     pub target: Vec<(usize, f64)>,
-    /// Arm the drive as soon as the board measures
-    #[arg(long)]
+    /// Arm the drive as soon as the board measures; a page arms it by its button
+    #[arg(long, conflicts_with = "page")]
     pub arm: bool,
     /// Check data lines, wires and pads step by step, the drive off: pads are put where the check asks for them
     #[arg(long, conflicts_with_all = ["page", "csv", "record", "target", "arm", "serve"])]
     pub check: bool,
+    /// Correct the calibration by what the board reads of its first pad, which is put at 24 places one after the other,
+    /// and write it to a file; the drive stays off
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["page", "csv", "record", "target", "arm", "serve", "check"])]
+    pub calibrate: Option<PathBuf>,
     /// End after this time of measuring, s
     #[arg(long, value_name = "SECONDS", value_parser = above_zero)]
     pub seconds: Option<f64>,

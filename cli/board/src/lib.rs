@@ -3,15 +3,21 @@
 //!
 //! | module | does |
 //! | --- | --- |
+//! | [`bench`] | what the next two need: a board's start-up, pads at places, frames |
 //! | [`check`](mod@check) | which line is open, swapped, reversed, noisy, clipped, which pad is missing |
+//! | [`guide`](mod@guide) | a calibration from pads that are put at places, one after the other |
 //! | [`virtual_board`] | a scene behind the registers and packets of a board |
 //! | [`faults`] | what is wrong with a virtual board: wires, ADC lines, its serial line |
-//! | [`virtual_line`] | a virtual board in real time: within this process, over TCP, on standard input and output |
+//! | [`virtual_line`] | a virtual board in real time, as a line within this process |
+//! | [`serve`] | the same for another program, over TCP or on standard input and output |
 //! | [`source`] | a board as what a live page shows and drives, or as CSV |
 //! | [`target`](mod@target) | which board a command line means, and what it is brought up with |
 
+pub mod bench;
 pub mod check;
 pub mod faults;
+pub mod guide;
+pub mod serve;
 pub mod source;
 pub mod target;
 pub mod virtual_board;

@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A virtual board in real time: as a line within this process, or served to another one.
+//! A virtual board in real time, as a line within this process.
 //!
 //! Device time is wall time, times a factor for a clock that is off. A machine that is too slow leaves time out, so that
 //! what comes is late and never wrong.
 
 use std::io::{self, Read, Write};
-use std::net::TcpListener;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use anyhow::{Context, Result};
-use hapticore_host::link::{Ends, Line, ends_of_tcp};
+use anyhow::Result;
+use hapticore_host::link::{Ends, Line};
 
 use crate::faults::Faults;
 use crate::virtual_board::VirtualBoard;
@@ -197,106 +195,5 @@ impl Write for End {
 
     fn flush(&mut self) -> io::Result<()> {
         Ok(())
-    }
-}
-
-/// Serves a board to one program after the other over TCP, until told to stop.
-///
-/// # Errors
-/// An address that is in use or none of this machine's.
-pub fn serve_tcp(running: &Running, address: &str, stop: &dyn Fn() -> bool) -> Result<()> {
-    let listener = TcpListener::bind(address).with_context(|| format!("--serve: {address}"))?;
-    listener.set_nonblocking(true)?;
-    while !stop() {
-        match listener.accept() {
-            Ok((stream, _)) => {
-                stream.set_nonblocking(false)?;
-                let ends = ends_of_tcp(stream)?;
-                // A program that leaves is no error.
-                let _ = connect(running, ends, stop);
-            }
-            Err(_) => thread::sleep(WAIT),
-        }
-    }
-    Ok(())
-}
-
-/// Serves a board on standard input and output, as a pseudo terminal has them, until they end.
-///
-/// # Errors
-/// A line that has ended.
-pub fn serve_standard(running: &Running, stop: &dyn Fn() -> bool) -> Result<()> {
-    let ends = Ends { reader: Box::new(Waiting::new()?), writer: Box::new(io::stdout()) };
-    connect(running, ends, stop)
-}
-
-/// Passes bytes between a program and the board, until the program leaves.
-fn connect(running: &Running, mut program: Ends, stop: &dyn Fn() -> bool) -> Result<()> {
-    let mut board = running.clone().open()?;
-    let ended = AtomicBool::new(false);
-    thread::scope(|scope| {
-        scope.spawn(|| {
-            pass(&mut *board.reader, &mut *program.writer, &|| ended.load(Ordering::Relaxed));
-            ended.store(true, Ordering::Relaxed);
-        });
-        let over = || stop() || ended.load(Ordering::Relaxed);
-        pass(&mut *program.reader, &mut *board.writer, &over);
-        ended.store(true, Ordering::Relaxed);
-    });
-    Ok(())
-}
-
-/// Passes bytes on, until either end is gone or it is told to stop.
-fn pass(from: &mut (dyn Read + Send), to: &mut (dyn Write + Send), over: &dyn Fn() -> bool) {
-    let mut buffer = [0; 4096];
-    while !over() {
-        let count = match from.read(&mut buffer) {
-            Ok(0) => return,
-            Ok(count) => count,
-            Err(error) => match error.kind() {
-                io::ErrorKind::WouldBlock
-                | io::ErrorKind::TimedOut
-                | io::ErrorKind::Interrupted => continue,
-                _ => return,
-            },
-        };
-        if to.write_all(&buffer[..count]).and_then(|()| to.flush()).is_err() {
-            return;
-        }
-    }
-}
-
-/// Standard input, read by a thread of its own, so that a read ends after a while.
-struct Waiting(std::sync::mpsc::Receiver<Vec<u8>>, Vec<u8>);
-
-impl Waiting {
-    fn new() -> Result<Self> {
-        let (sender, receiver) = std::sync::mpsc::sync_channel(64);
-        thread::Builder::new().name("stdin".into()).spawn(move || {
-            let mut buffer = [0; 4096];
-            while let Ok(count @ 1..) = io::stdin().lock().read(&mut buffer) {
-                if sender.send(buffer[..count].to_vec()).is_err() {
-                    break;
-                }
-            }
-        })?;
-        Ok(Waiting(receiver, Vec::new()))
-    }
-}
-
-impl Read for Waiting {
-    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
-        use std::sync::mpsc::RecvTimeoutError;
-        if self.1.is_empty() {
-            match self.0.recv_timeout(WAIT) {
-                Ok(bytes) => self.1 = bytes,
-                Err(RecvTimeoutError::Timeout) => return Err(io::ErrorKind::TimedOut.into()),
-                Err(RecvTimeoutError::Disconnected) => return Ok(0),
-            }
-        }
-        let count = self.1.len().min(buffer.len());
-        buffer[..count].copy_from_slice(&self.1[..count]);
-        self.1.drain(..count);
-        Ok(count)
     }
 }

@@ -5,7 +5,8 @@
 //! and checks again, until nothing is named; a finding of something that is sound counts as wrong.
 
 use fastrand::Rng;
-use hapticore_board::check::{Bench as _, DeviceTime, Finding, Report, check};
+use hapticore_board::bench::{Bench as _, DeviceTime};
+use hapticore_board::check::{Finding, Report, check};
 use hapticore_board::faults::Wrong;
 use hapticore_board::target::{Asked, virtual_device};
 use hapticore_host::DeviceCalibration;

@@ -42,7 +42,11 @@ impl Page {
         let stream = TcpStream::connect(("127.0.0.1", self.port)).expect("a connection");
         stream.set_read_timeout(Some(PATIENCE)).expect("a timeout");
         let address = format!("ws://127.0.0.1:{}/ws?token={TOKEN}", self.port);
-        Client { socket: tungstenite::client(address, stream).expect("a WebSocket").0, next: 1 }
+        Client {
+            socket: tungstenite::client(address, stream).expect("a WebSocket").0,
+            next: 1,
+            has_missed: false,
+        }
     }
 
     fn drive_v(&self) -> f64 {
@@ -69,13 +73,17 @@ impl Drop for Page {
 struct Client {
     socket: WebSocket<TcpStream>,
     next: u64,
+    /// It has been told that a client hangs.
+    has_missed: bool,
 }
 
 impl Client {
     fn read(&mut self) -> Value {
         loop {
             if let Message::Text(text) = self.socket.read().expect("a message") {
-                return serde_json::from_str(&text).expect("JSON");
+                let message = serde_json::from_str(&text).expect("JSON");
+                self.has_missed |= is_hang(&message);
+                return message;
             }
         }
     }
@@ -114,7 +122,7 @@ impl Client {
         while page.drive_v() <= 1.0 {
             assert!(begun.elapsed() < PATIENCE, "not driven");
             let _ = self.ask(json!({"type": "arm", "on": true}));
-            self.ask(json!({"type": "target", "pad": 0, "n": 0.2})).expect("within the cap");
+            let _ = self.ask(json!({"type": "target", "pad": 0, "n": 0.2}));
             thread::sleep(Duration::from_millis(20));
         }
     }
@@ -174,4 +182,34 @@ fn any_client_can_disable_the_board() {
     second.ask(json!({"type": "enable"})).expect("anybody may");
     first.until_phase("measuring");
     assert_eq!(page.drive_v(), 0.0);
+}
+
+#[test]
+fn a_page_that_hangs_while_it_is_connected_takes_the_drive_to_zero() {
+    let page = Page::new();
+    let (mut first, mut second) = (page.client(), page.client());
+    first.drive(&page);
+    let note = second.wait(|message| message["type"] == "note" && is_hang(message));
+    page.until("off", |volts| volts == 0.0);
+    second.drive(&page);
+    assert!(note["text"].as_str().is_some_and(|text| text.contains("until it is armed again")));
+}
+
+#[test]
+fn signs_of_life_keep_the_drive() {
+    let page = Page::new();
+    let mut client = page.client();
+    client.drive(&page);
+    let (begun, mut longest) = (Instant::now(), Duration::ZERO);
+    while begun.elapsed() < Duration::from_secs(3) {
+        let asked = Instant::now();
+        client.ask(json!({"type": "alive"})).expect("anybody may");
+        thread::sleep(Duration::from_millis(50));
+        longest = longest.max(asked.elapsed());
+    }
+    assert!(!client.has_missed || longest > Duration::from_millis(500), "{longest:?}");
+}
+
+fn is_hang(message: &Value) -> bool {
+    message["text"].as_str().is_some_and(|text| text.contains("no sign of life"))
 }

@@ -4,6 +4,9 @@
 import { fixed } from './draw.mjs';
 import { write } from './panels.mjs';
 
+/** How often the server has a sign of life, ms. */
+const ALIVE_MS = 250;
+
 export class Board {
   /** `parts`: the group with the buttons `arm` and `disable`, and the line of text. */
   constructor({ group, arm, disable, line }, model, send) {
@@ -26,6 +29,13 @@ export class Board {
   build() {
     this.group.hidden = !this.is;
     this.arm.hidden = !this.model.hello.controller;
+  }
+
+  /** Called as pictures are drawn: a page that hangs, or that nobody sees, sends no sign of life, and its drive goes off. */
+  live(now_ms) {
+    if (!this.is || now_ms - (this.alive_ms ?? 0) < ALIVE_MS) return;
+    this.alive_ms = now_ms;
+    this.send({ type: 'alive' });
   }
 
   draw() {

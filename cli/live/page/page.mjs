@@ -211,6 +211,7 @@ function draw() {
 
 function paint(now_ms) {
   drawing = false;
+  board.live(now_ms);
   sheet.draw();
   loupe.draw();
   bars.draw();

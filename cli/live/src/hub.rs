@@ -29,6 +29,8 @@ const TICK_S: f64 = 0.004;
 const FRAME_S: f64 = 1.0 / 60.0;
 /// How often the status is sent, s.
 const STATUS_S: f64 = 1.0;
+/// A client that has armed a drive and says nothing for this long hangs, s.
+const HANGS_S: f64 = 1.0;
 /// How long slots are run before requests are looked at, s.
 const BATCH_S: f64 = 0.008;
 /// The longest wait, so that an end is noticed, s.
@@ -66,6 +68,13 @@ struct Client {
     subscriber: Option<Subscriber>,
 }
 
+/// The client that has armed a board's drive. No other one drives; when it leaves or hangs, the drive goes to 0 V.
+struct Driver {
+    client: ClientId,
+    /// When it said something last, s.
+    heard_s: f64,
+}
+
 /// The loop's state.
 pub struct Hub {
     setup: Arc<Setup>,
@@ -79,8 +88,7 @@ pub struct Hub {
     clients: BTreeMap<ClientId, Client>,
     /// The client for which time stands.
     stepper: Option<ClientId>,
-    /// The client that has armed a board's drive: no other one drives, and its leaving takes the drive to 0 V.
-    driver: Option<ClientId>,
+    driver: Option<Driver>,
     sender: SyncSender<Message>,
     inbox: Receiver<Message>,
     begun: Instant,
@@ -131,6 +139,7 @@ impl Hub {
     pub fn run(&mut self, stop: &dyn Fn() -> bool) {
         while !stop() {
             self.wait();
+            self.miss_driver();
             self.advance();
             self.publish();
         }

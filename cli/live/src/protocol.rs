@@ -12,7 +12,9 @@
 //! | `{"type":"target","pad":0,"n":0.3}` | force that the controller gives, N |
 //! | `{"type":"wall","x_mm":-1.5,"y_mm":0}` | moves the walls; `"mm"` is `"x_mm"`; `"off":true` takes them away |
 //! | `{"type":"arm","on":true}` | lets a board's drive follow its targets, while this client stays; `false` takes it to 0 V |
-//! | `{"type":"disable"}`, `{"type":"enable"}` | disables a board: pads open, drives at 0 V; brings it up again, its drive off |
+//! | `{"type":"alive"}` | sign of life: a client that has armed a drive and sends nothing for 1 s takes it to 0 V |
+//! | `{"type":"disable"}` | disables a board: pads open, drives at 0 V |
+//! | `{"type":"enable"}` | brings a disabled board up again, its drive off |
 //! | `{"type":"pace","speed":0.1}` | device time by wall time; 0 pauses |
 //! | `{"type":"step","slots":8}` | runs slots now; time stands until the next `pace` or until this client leaves |
 //! | `{"type":"slot"}` | asks for the ADC codes of the last slot |
@@ -108,6 +110,8 @@ pub enum Command {
         /// It follows.
         on: bool,
     },
+    /// A sign of life of a client that has armed a drive.
+    Alive,
     /// Disables a board.
     Disable,
     /// Brings a disabled board up again, its drive off.

@@ -3,9 +3,7 @@
 
 use hapticore_run::record::Row;
 
-use crate::protocol::{
-    Command, Event, Frames, Hello, LineStatus, Recorded, Recording, SlotCodes,
-};
+use crate::protocol::{Command, Event, Frames, Hello, LineStatus, Recorded, Recording, SlotCodes};
 
 /// A display that advances slot by slot.
 pub trait Source: Send {

@@ -155,6 +155,13 @@ pub struct Raster {
     pub places: Vec<[f64; 5]>,
 }
 
+impl Raster {
+    /// The ratios at a place, mm, within the raster; none beyond it.
+    pub fn ratios_at(&self, at_mm: [f64; 2]) -> Option<[f64; 2]> {
+        refine::at(self.columns, &self.places, at_mm).map(|[_, _, r_x, r_y, _]| [r_x, r_y])
+    }
+}
+
 impl Scales {
     /// Ohms of one full scale of voltage per current.
     pub fn ohm(&self) -> f64 {

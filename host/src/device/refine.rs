@@ -26,6 +26,15 @@ pub fn refine(columns: usize, places: &[Place]) -> (usize, Vec<Place>) {
     (columns, fine)
 }
 
+/// What the raster has at a place, cubic along either axis; none beyond it.
+pub fn at(columns: usize, places: &[Place], [x, y]: [f64; 2]) -> Option<Place> {
+    let lines = || places.chunks(columns);
+    let across = Step::to(columns, |k| places[k][0], x)?;
+    let down = Step::to(places.len() / columns, |k| places[k * columns][1], y)?;
+    let between: Vec<Place> = lines().map(|row| across.between(|k| row[k])).collect();
+    Some(down.between(|k| between[k]))
+}
+
 /// A place between two points of a line, or on the first of them.
 struct Step {
     /// Points of the line.
@@ -43,6 +52,13 @@ fn steps(points: usize, times: usize) -> Vec<Step> {
 }
 
 impl Step {
+    /// To a value between those of the points, which rise or fall along the line.
+    fn to(points: usize, value: impl Fn(usize) -> f64, to: f64) -> Option<Step> {
+        let share = |k: usize| (to - value(k)) / (value(k + 1) - value(k));
+        let after = (0..points - 1).find(|k| (0.0..=1.0).contains(&share(*k)))?;
+        Some(Step { points, after, share: share(after) })
+    }
+
     /// The line at this place.
     fn between(&self, line: impl Fn(usize) -> Place) -> Place {
         let k = self.after as isize;
@@ -102,5 +118,9 @@ mod tests {
             );
         }
         assert!(coarse.iter().all(|place| fine.contains(place)));
+        let [.., r_x, r_y, _] = at(4, &coarse, [1.3, 0.6]).unwrap();
+        assert!((r_x - place(1.3, 0.6)[2]).abs() + (r_y - place(1.3, 0.6)[3]).abs() < 1e-12);
+        assert_eq!(at(4, &coarse, [3.0, 2.0]), Some(place(3.0, 2.0)));
+        assert_eq!(at(4, &coarse, [3.1, 0.0]), None);
     }
 }

@@ -146,7 +146,7 @@ fn host_refuses_what_it_cannot_use() {
         (&["virtual", "--dac", "ad5664r"], "--dac: expected none with a virtual board"),
         (&["virtual", "--arm"], "--arm: expected a board with a drive"),
         (&["virtual:fig9", "--target", "9=0.1", "--arm"], "--target: pad: expected below"),
-        (&["virtual:fig9", "--page", "--arm"], "--arm: expected no --page"),
+        (&["virtual:fig9", "--page", "--arm"], "cannot be used with"),
         (&["tcp:127.0.0.1:1", "--serve", "-", "--calibration", "none.toml"], "none.toml"),
     ];
     for (args, expected) in cases {

@@ -16,29 +16,23 @@
 //! Not found: a sensing voltage with reversed sign, which changes no result; the haptic channel beyond its data line,
 //! which carries nothing while the drive is off.
 
-mod bench;
 mod expected;
 mod judge;
-mod live;
 mod noise;
 mod report;
 
 use anyhow::{Result, ensure};
-use hapticore_contract::calibration::{Calibration, Point, PositionTable};
-use hapticore_contract::profile::Profile;
+use hapticore_contract::calibration::Calibration;
 use hapticore_host::DeviceCalibration;
 use hapticore_host::startup::{AdcSetup, LineFault, Range};
 
-pub use bench::{Bench, DeviceTime, Place};
-pub use live::RealTime;
 pub use report::{Finding, Report};
 
+use crate::bench::{Bench, MOVING, for_any_ratios};
 use expected::Expected;
 
 /// Frames of each pad at each place.
 const FRAMES: usize = 16;
-/// The first frames after pads were moved are of the motion.
-const MOVING: usize = 4;
 
 /// What was measured of a pad at a place.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -80,19 +74,6 @@ pub fn check(bench: &mut dyn Bench, device: &DeviceCalibration) -> Result<Report
     let (data, clipped) = measure(bench, (&calibration, &expected))?;
     bench.tell("step 3 of 3: what explains the measurements");
     Ok(judge::judge(&expected, data, clipped))
-}
-
-/// A calibration with which every pair of ratios is a valid measurement, and none is lifted or lost.
-fn for_any_ratios(profile: &Profile, device: &DeviceCalibration) -> Result<Calibration> {
-    const SIDE: i32 = 9;
-    let ratio = |k: i32| 2.2 * f64::from(k) / f64::from(SIDE - 1) - 1.1;
-    let points = (0..SIDE * SIDE).map(|k| {
-        let [r_x, r_y] = [ratio(k % SIDE), ratio(k / SIDE)];
-        Point { x: 100.0 * r_x, y: 100.0 * r_y, r_x, r_y, sheet: 0.0 }
-    });
-    let own = device.for_profile(profile)?;
-    let position = PositionTable::fit(profile, &points.collect::<Vec<_>>())?;
-    Ok(Calibration { position: position.with_open_share(0.0), contact_capacitance: 0.0, ..own })
 }
 
 /// Data of all places, and the channels that clip at ±10 V.

@@ -4,7 +4,9 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::thread;
 
-use super::{Client, ClientId, Hub, Message, Opened, Reported, frames, panic_message};
+use super::{
+    Client, ClientId, Driver, HANGS_S, Hub, Message, Opened, Reported, frames, panic_message,
+};
 use crate::client::{Bytes, text_frame};
 use crate::pace::Pace;
 use crate::protocol::{Answer, Command, Hello, Opening, Recording, Request};
@@ -20,9 +22,8 @@ impl Hub {
             }
             Message::Leave(client) => {
                 self.clients.remove(&client);
-                if self.driver == Some(client) {
-                    self.driver = None;
-                    let _ = self.source.apply(&Command::Arm { on: false });
+                if self.is_driver(client) {
+                    self.take_drive_off();
                 }
                 if self.stepper == Some(client) {
                     self.stepper = None;
@@ -40,6 +41,7 @@ impl Hub {
     }
 
     fn request(&mut self, client: ClientId, Request { id, command }: Request) {
+        self.hear(client);
         let outcome = match command {
             Command::Open(opening) => self.open(client, id, opening),
             Command::Record { to: Recording::Start } => self.open(client, id, self.opening.clone()),
@@ -77,6 +79,7 @@ impl Hub {
                 self.stepper = None;
             }
             Command::Step { slots } => self.step(client, slots)?,
+            Command::Alive => (),
             Command::Slot => self.send(client, &Answer::Slot(self.source.codes())),
             Command::Record { to } => {
                 let recorded = self.source.record(to)?;
@@ -106,24 +109,58 @@ impl Hub {
                 | Command::Set { .. }
                 | Command::Wall { .. }
         );
-        match (command, self.driver) {
-            (Command::Pace { .. } | Command::Step { .. }, _) => {
-                Err("expected a simulated source: a board's time goes on".into())
-            }
-            (_, Some(driver)) if drives && driver != client => {
-                Err("another client has armed the drive: close that page first".into())
-            }
-            _ => Ok(()),
+        if matches!(command, Command::Pace { .. } | Command::Step { .. }) {
+            return Err("expected a simulated source: a board's time goes on".into());
         }
+        if drives && self.driver.is_some() && !self.is_driver(client) {
+            return Err("another client has armed the drive: close that page first".into());
+        }
+        Ok(())
     }
 
     /// Who has armed the drive, after a command that was carried out.
     fn follow_driver(&mut self, client: ClientId, command: &Command) {
         match command {
-            Command::Arm { on: true } => self.driver = Some(client),
+            Command::Arm { on: true } => {
+                self.driver = Some(Driver { client, heard_s: self.wall_s() });
+            }
             Command::Arm { on: false } | Command::Disable => self.driver = None,
             _ => (),
         }
+    }
+
+    fn is_driver(&self, client: ClientId) -> bool {
+        self.driver.as_ref().is_some_and(|driver| driver.client == client)
+    }
+
+    /// Whatever a client says is a sign of its life.
+    fn hear(&mut self, client: ClientId) {
+        let now_s = self.wall_s();
+        if let Some(driver) = self.driver.as_mut().filter(|driver| driver.client == client) {
+            driver.heard_s = now_s;
+        }
+    }
+
+    /// Takes the drive to 0 V where the client that has armed it hangs, whose connection may stay open for minutes.
+    pub(super) fn miss_driver(&mut self) {
+        let now_s = self.wall_s();
+        if self.driver.is_some() && self.source.line().is_some_and(|line| !line.armed) {
+            // A fault has taken it off.
+            self.driver = None;
+        }
+        if self.driver.as_ref().is_some_and(|driver| now_s - driver.heard_s > HANGS_S) {
+            self.take_drive_off();
+            let text = format!(
+                "the page that armed the drive has sent no sign of life for {HANGS_S} s: the drive is off until it is armed \
+                 again; a page in a hidden tab sends none"
+            );
+            self.tell_all(&Answer::Note { text });
+        }
+    }
+
+    fn take_drive_off(&mut self) {
+        self.driver = None;
+        let _ = self.source.apply(&Command::Arm { on: false });
     }
 
     /// Runs slots at once, and lets time stand from then on. All of it is done before the next request.

@@ -29,13 +29,14 @@ pub struct BadRequest {
 }
 
 /// The types of commands.
-const TYPES: [&str; 14] = [
+const TYPES: [&str; 15] = [
     "lead",
     "release",
     "set",
     "target",
     "wall",
     "arm",
+    "alive",
     "disable",
     "enable",
     "pace",
@@ -104,6 +105,7 @@ impl Fields<'_> {
             "target" => Command::Target { pad: self.pad()?, n: self.number("n")? },
             "wall" => self.wall()?,
             "arm" => Command::Arm { on: self.required("on", "true or false", Value::as_bool)? },
+            "alive" => Command::Alive,
             "disable" => Command::Disable,
             "enable" => Command::Enable,
             "pace" => Command::Pace { speed: self.speed()? },

@@ -13,6 +13,7 @@
 //! | [`table`], [`setup`] | reads CSV, TOML |
 //! | [`places`] | what terminals read of a pad at known places |
 //! | [`scattered`] | places that are no raster, brought onto one |
+//! | [`corrected`] | a calibration corrected by ratios that a board has read |
 //! | [`loads`] | friction under known loads and voltages |
 //! | [`wiring`] | terminals that are swapped or reversed |
 //! | [`force_table`] | the force table, from readings and a prior |
@@ -20,6 +21,7 @@
 //! | [`shares`] | each terminal's share of the current by place |
 //! | [`least_squares`] | coefficients with their intervals |
 
+pub mod corrected;
 pub mod force_table;
 pub mod least_squares;
 pub mod loads;

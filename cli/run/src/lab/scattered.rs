@@ -54,6 +54,20 @@ pub fn raster(
     Ok((RASTER[0], raster.iter().zip(uniform(&raster)).map(place).collect()))
 }
 
+/// Rows of a map with a spline of what differs from it at some places, `[x_mm, y_mm, Δr_x, Δr_y, Δsheet_ohm]`.
+///
+/// # Errors
+/// Places on a line, or one twice.
+pub fn corrected(map: &[Row], differs: &[Row]) -> Result<Vec<Row>> {
+    let at: Vec<_> = differs.iter().map(|place| [place[0], place[1]]).collect();
+    let spline = Spline::of(&at, |k, value| differs[k][2 + value])?;
+    let place = |&[x, y, r_x, r_y, ohm]: &Row| {
+        let differs = spline.at([x, y]);
+        [x, y, r_x + differs[0], r_y + differs[1], ohm + differs[2]]
+    };
+    Ok(map.iter().map(place).collect())
+}
+
 /// Evenly from the least to the greatest.
 fn along(values: impl Iterator<Item = f64>, count: usize) -> Vec<f64> {
     let (low, high) =

@@ -16,11 +16,16 @@ use super::values::{self, Values};
 const OFTEN: [(&str, u32); 4] = [("simulate", 8), ("replay", 5), ("hdl", 6), ("codes", 3)];
 
 /// What the parser takes only beside another option: subcommand, option, the other.
-const BESIDE: [(&str, &str, &str); 4] = [
+const BESIDE: [(&str, &str, &str); 9] = [
     ("hdl", "clock_hz", "dac"),
     ("hdl", "full_scale_v", "dac"),
     ("live", "listen", "token"),
     ("live", "token", "listen"),
+    ("host", "page_port", "page"),
+    ("host", "open", "page"),
+    ("host", "target", "arm"),
+    ("host", "wave", "dac"),
+    ("host", "full_scale_v", "dac"),
 ];
 
 /// One value in this many is hostile.
@@ -38,7 +43,7 @@ const RUN: u32 = 60;
 const FEW: [(&str, &str); 2] = [("--scene", "minimal-sheet"), ("--slots", "1")];
 
 /// Words that are in the wrong place.
-const WORDS: [&str; 10] =
+const WORDS: [&str; 9] =
     ["--", "-", "-h", "--help", "--version", "--no-such-option", "simulate", "", "--out", "-x"];
 
 /// Makes lines without end.

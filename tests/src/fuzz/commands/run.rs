@@ -63,9 +63,9 @@ pub fn run(desk: &Desk, line: &[OsString]) -> Ended {
     ended
 }
 
-/// The status of a server that Ctrl-C ends before it serves.
+/// The status of a server, or of a board's host, that Ctrl-C ends before it is at work.
 fn interrupted(line: &[OsString]) -> Option<i32> {
-    line.first().is_some_and(|word| word == "live").then_some(130)
+    line.first().is_some_and(|word| word == "live" || word == "host").then_some(130)
 }
 
 /// A sweep keeps its store: what was run is not run again.

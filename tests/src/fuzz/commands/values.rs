@@ -70,6 +70,15 @@ impl<'a> Values<'a> {
     fn named(&self, rng: &mut Rng, of: &str, argument: &Arg, scene: &str) -> String {
         let files = &self.desk.files;
         match (of, argument.get_id().as_str()) {
+            ("host", "port") => one_of(
+                rng,
+                "virtual virtual virtual:fig9 virtual:hockey virtual:none list tcp:127.0.0.1:9 tcp:none /dev/null no-port",
+            ),
+            ("host", "target") => one_of(rng, "0=0.2 0=0 9=0.1 0=-1 0=nan 0=1e300 x 0="),
+            ("host", "record" | "calibrate") => {
+                one(rng, &["new.csv", "nowhere/new.csv", "folder.toml"])
+            }
+            ("host", "serve") => one_of(rng, "127.0.0.1:0 127.0.0.1:x 192.0.2.1:1 - x"),
             ("tradeoff", "scene") => {
                 one(rng, &["minimal-sheet", "minimal-gap", "fig6", "fig9", "wall-2d"])
             }
@@ -123,7 +132,9 @@ impl<'a> Values<'a> {
                 one_of(rng, "25000000 12000000 1000000 200000000 48000000 25000000 999999 1e6")
             }
             ("hdl", "full_scale_v") => one_of(rng, "500 100 1 65535 0"),
-            (_, "port") => one_of(rng, "0 0 0 8091 65535 65536 -1"),
+            (_, "baud") => one_of(rng, "1000000 3000000 115200 1200 12000000 0 12000001"),
+            (_, "seconds") => one_of(rng, "0.1 0.3 1e-3 1e300 0 -1 nan"),
+            (_, "port" | "page_port") => one_of(rng, "0 0 0 8091 65535 65536 -1"),
             (_, "speed") => one_of(rng, "1 0.1 0 100 1e-300 -1 nan"),
             (_, "listen") => one_of(rng, "127.0.0.1 ::1 0.0.0.0 192.0.2.1 localhost"),
             (_, "token") => one_of(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A check over a session in real time: a hand puts the pads where the check asks for them.
+//! A board over a session in real time: a hand puts the pads where it is asked to.
 
 use std::thread;
 use std::time::{Duration, Instant};
@@ -11,7 +11,7 @@ use hapticore_host::Packet;
 use hapticore_host::link::{Phase, Plan, Session, SessionEvent};
 use hapticore_host::startup::{AdcSetup, LineFault, StartupError};
 
-use super::bench::{Bench, MOVES_S, Place, SWINGS_S};
+use super::{Bench, MOVES_S, Place, SWINGS_S};
 use crate::target::Target;
 use crate::virtual_line::Running;
 

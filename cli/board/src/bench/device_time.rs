@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a check needs of a board: its start-up, pads at places, frames.
+//! A virtual board in device time, whose pads go where they are sent.
 
 use std::collections::VecDeque;
 
@@ -10,46 +10,8 @@ use hapticore_host::bringup::{BringUp, Step};
 use hapticore_host::startup::{AdcSetup, LineFault, StartupError, check, prepare};
 use hapticore_host::{Command, Decoder, Heartbeat, Message, Packet, encode};
 
+use super::{Bench, MOVES_S, Place, SWINGS_S};
 use crate::virtual_board::VirtualBoard;
-
-/// A place, mm from the sheet's centre.
-pub type Place = [f64; 2];
-
-/// A board, and pads that can be put somewhere.
-pub trait Bench {
-    /// The profile of the board.
-    fn profile(&self) -> &Profile;
-
-    /// Where the parts of a pad lie, mm from its centre.
-    fn parts_mm(&self) -> &[Place];
-
-    /// Brings the board up with a calibration, its drive off, after a test of its data lines where `lines`. It is enabled,
-    /// unless a data line has failed.
-    ///
-    /// # Errors
-    /// A board that does not start up for another reason.
-    fn bring_up(
-        &mut self,
-        calibration: &Calibration,
-        adc: &AdcSetup,
-        lines: bool,
-    ) -> Result<Vec<(u8, LineFault)>>;
-
-    /// Puts each pad at a place.
-    ///
-    /// # Errors
-    /// A place off the sheet; a user who has gone.
-    fn put(&mut self, places: &[Place]) -> Result<()>;
-
-    /// Frames from now on, this many of each pad at least.
-    ///
-    /// # Errors
-    /// A board that sends none any more.
-    fn frames(&mut self, of_each: usize) -> Result<Vec<Packet>>;
-
-    /// Says what is done.
-    fn tell(&mut self, text: &str);
-}
 
 /// A virtual board in device time, as fast as it computes.
 pub struct DeviceTime {
@@ -64,10 +26,6 @@ pub struct DeviceTime {
     commands: usize,
 }
 
-/// How long pads take to a place, s.
-pub(super) const MOVES_S: f64 = 0.2;
-/// How long pads that hang on a finger swing, s.
-pub(super) const SWINGS_S: f64 = 0.3;
 /// How often the line is looked at, s.
 const TICK_S: f64 = 0.002;
 /// The longest wait for a packet, s.
