@@ -427,6 +427,9 @@ pub struct HdlArgs {
     /// A board: its top, constraints and a script that makes a bitstream, too
     #[arg(long, value_name = "ulx3s|icebreaker")]
     pub board: Option<String>,
+    /// Bits a second of the board's serial line [default: 1000000; fast with 4,000 frames a second needs 3000000]
+    #[arg(long, value_name = "N", requires = "board")]
+    pub baud: Option<u64>,
     /// The core's profile: a bundled name (small, standard, fine, fast) or a TOML file [default: the
     /// board's, else standard]
     #[arg(long, value_name = "PROFILE")]

@@ -8,7 +8,7 @@ use hapticore_contract::control::{Control, Law};
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::verilog::Design;
 use hapticore_rtl::board::Target;
-use hapticore_rtl::board::parameters::Drive;
+use hapticore_rtl::board::parameters::{Drive, Parameters};
 use hapticore_rtl::board::target::Printed;
 use hapticore_rtl::header;
 use serde_json::json;
@@ -42,7 +42,7 @@ pub fn run(args: &HdlArgs) -> Result<bool> {
         None => profile,
     };
     let drive = args.dac.as_deref().map(|dac| drive(&profile, dac, args)).transpose()?;
-    let printed = board.map(|board| print_board(board, &profile, drive)).transpose()?;
+    let printed = board.map(|board| print_board(board, &profile, drive, args.baud)).transpose()?;
     let options = format!("--dac {} --wave {}", args.dac.as_deref().unwrap_or(""), args.wave);
     let pins = drive.filter(|_| board.is_none());
     let clock_hz = args.clock_hz;
@@ -109,14 +109,21 @@ fn write_modules(output: &Output, design: &Design) -> Result<()> {
 }
 
 /// A board with the core of a profile, or its force loop and drive.
-fn print_board(board: Target, profile: &Profile, drive: Option<Drive>) -> Result<Printed> {
+fn print_board(
+    board: Target,
+    profile: &Profile,
+    drive: Option<Drive>,
+    baud: Option<u64>,
+) -> Result<Printed> {
     let converts = drive.is_some() || profile.control.is_none();
     ensure!(
         converts,
         "--board: expected a converter for the controller's drives too: --dac ad5664r"
     );
     let of = || format!("board {}, profile {}", board.name(), profile.name);
-    board.printed(profile, drive).with_context(of)
+    let own = board.parameters();
+    let parameters = Parameters { drive, baud: baud.unwrap_or(own.baud), ..own };
+    board.printed_with(profile, &parameters).with_context(of)
 }
 
 /// A board: its Verilog, its constraints, and the script that makes its bitstream.

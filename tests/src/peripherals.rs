@@ -397,7 +397,7 @@ pub fn blocks_of_a_drive(target: Target) -> Vec<Alone> {
 /// The blocks of a board, with its own parameters, and those that no board's parameters change.
 pub fn blocks(target: Target) -> Vec<Alone> {
     let (profile, parameters) = (target.profile(), target.parameters());
-    let (core, divisor) = (Core::new(&profile), parameters.divisor());
+    let (core, divisor) = (Core::new(&profile), parameters.bits().least());
     let words = core.estimator().table().words as u64;
     let block = CommandRegisters::new(core.inputs().calibration, words, None);
     let mut all = drive_outputs();

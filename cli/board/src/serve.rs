@@ -15,7 +15,7 @@ use crate::virtual_line::Running;
 /// How long a read waits.
 const WAIT: Duration = Duration::from_millis(20);
 
-/// Serves a board to one program after the other over TCP, until told to stop.
+/// Serves a board to one program after the other over TCP, until `stop` says so.
 ///
 /// # Errors
 /// An address that is in use or none of this machine's.

@@ -118,6 +118,8 @@ pub struct Session {
     damaged_before: u64,
     has_complained: bool,
     refused: Option<StartupError>,
+    /// What the board has said that it is since the line was opened.
+    identity: Option<String>,
     targets_n: Vec<f64>,
     /// Surface of each wall, mm, and whether its inside is right of it.
     surfaces: Vec<Option<(f64, bool)>>,
@@ -142,6 +144,7 @@ impl Session {
             damaged_before: 0,
             has_complained: false,
             refused: None,
+            identity: None,
             targets_n: vec![0.0; pads],
             surfaces: vec![None; pads],
             spoke_at: now,
@@ -225,7 +228,7 @@ impl Session {
         match event {
             Event::Connected => {
                 report(SessionEvent::Note(format!("{}: the line is open", self.link.name())));
-                self.attempts = 0;
+                (self.attempts, self.identity, self.refused) = (0, None, None);
                 self.identify();
             }
             Event::Disconnected(why) => {

@@ -3,6 +3,7 @@
 
 use super::drive_output::{Converter, Wave};
 use super::framing::word_bytes;
+use super::uart::BitClocks;
 use hapticore_contract::profile::Profile;
 use hapticore_protocol::Output;
 use hapticore_protocol::drive::Kind;
@@ -12,7 +13,7 @@ use hapticore_protocol::drive::Kind;
 pub struct Parameters {
     /// The core's clock.
     pub clock_hz: u64,
-    /// Bits a second of the serial port, about: the divider is whole.
+    /// Bits a second of the serial port.
     pub baud: u64,
     /// Clocks from `sclk_run` to the pulse at the pin: those of the output primitive.
     pub sclk_latency: u64,
@@ -84,9 +85,9 @@ impl Parameters {
         self.drive.map(|drive| drive.output(self.clock_hz))
     }
 
-    /// Clocks of a bit of the serial port.
-    pub fn divisor(&self) -> u64 {
-        (self.clock_hz + self.baud / 2) / self.baud.max(1)
+    /// Clocks of each bit of the serial port.
+    pub fn bits(&self) -> BitClocks {
+        BitClocks::of(self.clock_hz, self.baud)
     }
 
     /// Clocks of a conversion.
@@ -114,7 +115,7 @@ impl Parameters {
         let control = u64::from(profile.control.is_some());
         within("clock_hz", self.clock_hz, 1_000_000, 200_000_000)?;
         let least = self.least_divisor();
-        within("baud", self.divisor(), least, 1 << 16).map_err(|error| ParametersError {
+        within("baud", self.bits().least(), least, 1 << 16).map_err(|error| ParametersError {
             expected: format!("{} to {}", self.clock_hz >> 16, self.clock_hz / least),
             got: self.baud,
             ..error
@@ -123,7 +124,7 @@ impl Parameters {
         within("ADC bits", bits, 2, 18)?;
         within("pads", profile.pads, 1, 16)?;
         // A frame's number is on the line before the next frame's comes.
-        let byte = 10 * self.divisor() + 2;
+        let byte = self.bits().byte() + 2;
         within("clocks of a byte on the serial line", byte, 1, profile.slot_clocks())?;
         within("clocks_per_sample", period, bits + channels - 1, 1 << 16)?;
         let drives = u64::from(self.drive.is_some());

@@ -44,8 +44,8 @@ use super::framing::{
     CRC_BYTES, END, NIBBLE, PLACE, Register, STATUS_BYTES, STUFFING_BYTES, VERSION, board_digest,
     packet_bytes, packet_words, word_bytes,
 };
-use super::uart::BYTE;
 use super::uart::transmitter::{self, Transmitter};
+use super::uart::{BYTE, BitClocks};
 use hapticore_contract::frame::Field;
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::block::{Block, Interpretation, State};
@@ -169,9 +169,14 @@ fn driven(profile: &Profile) -> DrivenPort<Format> {
 }
 
 impl Stream {
-    /// The stream of a profile's frames, with `divisor` clocks per bit, and of a board whose
+    /// The stream of a profile's frames, with bits of these clocks, and of a board whose
     /// commands bring data of this format; heartbeats report its output, where there is one.
-    pub fn new(profile: &Profile, divisor: u64, data: Format, output: Option<&Output>) -> Self {
+    pub fn new(
+        profile: &Profile,
+        bits: impl Into<BitClocks>,
+        data: Format,
+        output: Option<&Output>,
+    ) -> Self {
         let format = Field::word(profile);
         let mut initial = vec![0.0; 2 * WORDS as usize];
         initial[WORDS as usize + Register::Control.number()] =
@@ -185,7 +190,7 @@ impl Stream {
         Stream {
             words: words.dont_care_on_collision(),
             data,
-            transmitter: Transmitter::new(divisor),
+            transmitter: Transmitter::new(bits),
             pad: Format::counter(profile.pads - 1),
             bytes: word_bytes(profile),
             length: packet_bytes(profile),

@@ -9,7 +9,7 @@
 //! | count    | counter D − 1 | reloaded, by compare |
 //! | position | counter 10    | reloaded, by compare |
 //!
-//! A bit takes D clocks, the divisor. The receiver samples the middle of each bit; the line passes two registers first.
+//! A bit takes D clocks, the divisor; where a rate asks for it, some bits of a byte take one more ([`BitClocks`]). The receiver samples the middle of each bit; the line passes two registers first.
 //! It reports a character without a stop bit as a zero byte, which ends a packet, and then nothing until the line is
 //! high. So a line that stays low is one such byte. A receiver that has taken another bit for a start bit finds the
 //! right one behind the next zero byte, nine low bits. Latency: 10·D clocks a byte, and one more from byte to byte for
@@ -24,7 +24,7 @@
 use super::bits::{next, previous};
 use hapticore_hdl::block::{Block, Interpretation, State};
 use hapticore_hdl::format::{BIT, Format};
-use hapticore_hdl::signal::{Wrap, bit, code, int};
+use hapticore_hdl::signal::{Signal, Wrap, bit, code, int};
 use hapticore_hdl::{block, when};
 
 /// The format of a byte.
@@ -36,6 +36,82 @@ const STOP: u64 = 9;
 /// The position behind a stop bit that was low, until the line is high.
 const BROKEN: u64 = 10;
 
+/// Clocks of each bit of a byte, from the start bit to the stop bit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct BitClocks {
+    /// Of most bits.
+    divisor: u64,
+    /// Those that take one clock more, a bit for each position.
+    long: u16,
+}
+
+/// All bits are as long.
+impl From<u64> for BitClocks {
+    fn from(divisor: u64) -> Self {
+        BitClocks { divisor, long: 0 }
+    }
+}
+
+impl BitClocks {
+    /// A whole divisor may be off by this part of a rate.
+    const OFF: f64 = 0.02;
+
+    /// Of a rate of `baud` bits a second: all as long where a whole divisor is near enough, else each edge within half a
+    /// clock of its time.
+    pub fn of(clock_hz: u64, baud: u64) -> Self {
+        let baud = baud.max(1);
+        let nearest = (clock_hz + baud / 2) / baud;
+        let off = (nearest * baud).abs_diff(clock_hz) as f64 / clock_hz as f64;
+        if off < Self::OFF {
+            return nearest.into();
+        }
+        let edge = |bit: u64| (bit * clock_hz + baud / 2) / baud;
+        let divisor = clock_hz / baud;
+        let is_long = |bit: &u64| edge(bit + 1) - edge(*bit) > divisor;
+        BitClocks { divisor, long: (0..=STOP).filter(is_long).map(|bit| 1 << bit).sum() }
+    }
+
+    /// Of the shortest bit.
+    pub fn least(self) -> u64 {
+        self.divisor
+    }
+
+    /// Of the longest.
+    pub fn most(self) -> u64 {
+        self.divisor + u64::from(self.long != 0)
+    }
+
+    /// Of a byte, start and stop bit included.
+    pub fn byte(self) -> u64 {
+        (STOP + 1) * self.divisor + u64::from(self.long.count_ones())
+    }
+
+    /// What a counter of the start bit begins with.
+    #[inline(always)]
+    fn first<V: Interpretation>(self) -> Signal<V> {
+        self.sized(int(self.divisor - 1 + u64::from(self.long & 1)))
+    }
+
+    /// What a counter of the bit at a position begins with.
+    #[inline(always)]
+    fn count<V: Interpretation>(self, position: impl FnOnce() -> Signal<V>) -> Signal<V> {
+        let short = int(self.divisor - 1);
+        if self.long == 0 {
+            return short;
+        }
+        let (position, long) = (position(), int(self.divisor));
+        let at = (0..=STOP).filter(|bit| self.long >> bit & 1 != 0);
+        let is_long = at.map(|bit| position.is(bit)).reduce(|a, b| a | b);
+        self.sized(is_long.map_or(short, |is_long| is_long.select(long, short)))
+    }
+
+    /// In the format of the counter.
+    #[inline(always)]
+    fn sized<V: Interpretation>(self, count: Signal<V>) -> Signal<V> {
+        if self.long == 0 { count } else { count.resize(Format::counter(self.most() - 1), Wrap) }
+    }
+}
+
 /// Receiver: 8N1 line to bytes.
 pub mod receiver {
     use super::*;
@@ -44,7 +120,7 @@ pub mod receiver {
         /// The receiver. The line is kept inverted, so that it rests at reset.
         pub struct Receiver("receiver") {
             /// Cycles per bit.
-            divisor: u64,
+            bits: BitClocks,
         }
         submodules {}
         inputs(receiver) {
@@ -61,7 +137,7 @@ pub mod receiver {
             pin: BIT,
             low: BIT,
             busy: BIT,
-            count: Format::counter(receiver.divisor - 1),
+            count: Format::counter(receiver.bits.most() - 1),
             position: Format::counter(BROKEN),
             octet: BYTE,
             valid: BIT,
@@ -69,16 +145,16 @@ pub mod receiver {
     }
 
     impl Receiver {
-        /// A receiver with `divisor` clocks per bit.
-        pub fn new(divisor: u64) -> Self {
-            Receiver { divisor }
+        /// A receiver of bits of these clocks.
+        pub fn new(bits: impl Into<BitClocks>) -> Self {
+            Receiver { bits: bits.into() }
         }
 
         /// Waits for a start bit.
         #[inline(always)]
         fn wait<V: Interpretation>(&self, r: Regs<V>) -> Regs<V> {
             // The start bit has been low for a clock when this is seen.
-            let half = int(self.divisor / 2 - 1);
+            let half = int(self.bits.least() / 2 - 1);
             Registers { busy: r.low, count: half, position: int(0), ..r }
         }
 
@@ -92,7 +168,7 @@ pub mod receiver {
             Registers {
                 busy: r.low | !(start | stop | broken),
                 count: (stop | broken)
-                    .select(int(0), int(self.divisor - 1))
+                    .select(int(0), self.bits.count(|| r.position))
                     .resize(r.count.format, Wrap),
                 position: broken.select(r.position, next(r.position)),
                 octet: stop.select(heard, shifted),
@@ -124,7 +200,7 @@ pub mod transmitter {
         /// The transmitter. The line is kept inverted, so that it rests at reset.
         pub struct Transmitter("transmitter") {
             /// Cycles per bit.
-            divisor: u64,
+            bits: BitClocks,
         }
         submodules {}
         inputs(transmitter) {
@@ -144,16 +220,16 @@ pub mod transmitter {
         registers(transmitter) {
             low: BIT,
             busy: BIT,
-            count: Format::counter(transmitter.divisor - 1),
+            count: Format::counter(transmitter.bits.most() - 1),
             position: Format::counter(STOP),
             octet: BYTE,
         }
     }
 
     impl Transmitter {
-        /// A transmitter with `divisor` clocks per bit.
-        pub fn new(divisor: u64) -> Self {
-            Transmitter { divisor }
+        /// A transmitter of bits of these clocks.
+        pub fn new(bits: impl Into<BitClocks>) -> Self {
+            Transmitter { bits: bits.into() }
         }
 
         /// The start bit.
@@ -162,7 +238,7 @@ pub mod transmitter {
             Registers {
                 low: i.valid,
                 busy: i.valid,
-                count: int(self.divisor - 1),
+                count: self.bits.first(),
                 position: int(0),
                 octet: i.octet,
             }
@@ -174,7 +250,7 @@ pub mod transmitter {
             Registers {
                 low: !r.octet.bits(0, 1),
                 busy: !r.position.is(STOP),
-                count: int(self.divisor - 1),
+                count: self.bits.count(|| next(r.position)),
                 position: next(r.position),
                 octet: bit(true).concat(r.octet.bits(1, 7)),
             }

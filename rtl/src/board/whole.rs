@@ -163,8 +163,8 @@ impl Board {
         let sets = 1usize << reader.outputs().address.width;
         Ok(Board {
             tick_clocks: parameters.clock_hz / 1000,
-            receiver: Receiver::new(parameters.divisor()),
-            stream: Stream::new(profile, parameters.divisor(), data, parameters.output().as_ref()),
+            receiver: Receiver::new(parameters.bits()),
+            stream: Stream::new(profile, parameters.bits(), data, parameters.output().as_ref()),
             line_test: LineTest::new(registers.outputs().line, profile.formats.adc),
             registers,
             adc_reader: reader,

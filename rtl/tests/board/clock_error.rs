@@ -6,10 +6,12 @@ use crate::device::calibration;
 use crate::pins::Host;
 use crate::random::Random;
 use crate::session::{Session, parameters, samples, simulated, small};
+use hapticore_contract::profile::Profile;
 use hapticore_host::startup::start;
-use hapticore_rtl::board::Target;
+use hapticore_rtl::board::uart::BitClocks;
 use hapticore_rtl::board::uart::receiver::{self, Receiver};
 use hapticore_rtl::board::uart::transmitter::{self, Transmitter};
+use hapticore_rtl::board::{Parameters, Target};
 
 /// Bytes with the longest runs of either level among them.
 fn bytes() -> Vec<u8> {
@@ -23,13 +25,14 @@ fn phases() -> impl Iterator<Item = f64> {
     (0..10).map(|tenths| f64::from(tenths) / 10.0)
 }
 
-/// Whether a board with this divisor hears what a host with such bits sends without a pause.
-fn board_hears(divisor: u64, bit: f64) -> bool {
+/// Whether a board with bits of these clocks hears what a host with such bits sends without a pause.
+fn board_hears(bits: impl Into<BitClocks>, bit: f64) -> bool {
+    let bits = bits.into();
     phases().all(|phase| {
-        let mut receiver = Bench::new(Receiver::new(divisor));
+        let mut receiver = Bench::new(Receiver::new(bits));
         let (mut host, mut heard) = (Host::with_bit(bit), Vec::new());
         host.send_early(bytes(), phase);
-        for _ in 0..(bytes().len() + 2) as u64 * 11 * divisor {
+        for _ in 0..(bytes().len() + 2) as u64 * 11 * bits.most() {
             let outputs = receiver.clock(receiver::Inputs { rx: host.line() });
             host.clock(1);
             heard.extend((outputs.valid != 0).then_some(outputs.octet as u8));
@@ -38,11 +41,12 @@ fn board_hears(divisor: u64, bit: f64) -> bool {
     })
 }
 
-/// Whether a host with such bits hears what a board with this divisor sends without a pause.
-fn host_hears(divisor: u64, bit: f64) -> bool {
-    let mut transmitter = Bench::new(Transmitter::new(divisor));
+/// Whether a host with such bits hears what a board with bits of these clocks sends without a pause.
+fn host_hears(bits: impl Into<BitClocks>, bit: f64) -> bool {
+    let bits = bits.into();
+    let mut transmitter = Bench::new(Transmitter::new(bits));
     let (mut host, mut left) = (Host::with_bit(bit), bytes().into_iter().peekable());
-    for _ in 0..(bytes().len() + 2) as u64 * 11 * divisor {
+    for _ in 0..(bytes().len() + 2) as u64 * 11 * bits.most() {
         let octet = left.peek().copied();
         let valid = octet.is_some().into();
         let inputs = transmitter::Inputs { valid, octet: octet.unwrap_or(0).into() };
@@ -61,13 +65,47 @@ fn limit(hears: impl Fn(f64) -> bool, sign: f64) -> f64 {
 
 #[test]
 fn bytes_cross_the_line_both_ways_with_a_clock_three_percent_off() {
-    for divisor in Target::ALL.map(|target| target.parameters().divisor()) {
+    for divisor in Target::ALL.map(|target| target.parameters().bits().least()) {
         for error in [-0.03, -0.02, -0.01, 0.0, 0.01, 0.02, 0.03] {
             let bit = divisor as f64 * (1.0 + error);
             assert!(board_hears(divisor, bit), "to the board, {divisor} clocks, {error}");
             assert!(host_hears(divisor, bit), "to the host, {divisor} clocks, {error}");
         }
     }
+}
+
+/// 25 MHz are 8⅓ clocks for each bit of 3 Mbaud: whole bits would be 4 % off.
+#[test]
+fn bits_of_unequal_clocks_cross_the_line_with_a_clock_two_percent_off() {
+    for (clock_hz, baud) in
+        [(25_000_000u64, 3_000_000u64), (25_000_000, 2_000_000), (12_000_000, 2_500_000)]
+    {
+        let (bits, clocks) = (BitClocks::of(clock_hz, baud), clock_hz as f64 / baud as f64);
+        assert!(bits.most() == bits.least() + 1, "{bits:?}");
+        assert!((bits.byte() as f64 - 10.0 * clocks).abs() <= 0.5, "{bits:?}");
+        for error in [-0.02, -0.01, 0.0, 0.01, 0.02] {
+            let bit = clocks * (1.0 + error);
+            assert!(board_hears(bits, bit), "to the board, {baud} baud, {error}");
+            assert!(host_hears(bits, bit), "to the host, {baud} baud, {error}");
+        }
+    }
+}
+
+/// 4,000 frames a second, each of 43 bytes.
+#[test]
+fn a_line_of_three_megabaud_carries_every_slot_of_the_profile_fast() {
+    let profile = Profile::bundled("fast").expect("a bundled profile");
+    let (calibration, samples) = (calibration(&profile), samples(&profile, 12));
+    let dropped = [1_000_000, 3_000_000].map(|baud| {
+        let parameters = Parameters { clock_hz: 25_000_000, baud, sclk_latency: 2, drive: None };
+        let mut session = Session::new(&profile, parameters, &samples);
+        session.host = Host::with_bit(25_000_000.0 / baud as f64);
+        session.send(&start(&profile, &calibration));
+        let packets = session.packets(6);
+        packets.windows(2).filter(|of| of[1].status.sequence != of[0].status.sequence + 1).count()
+    });
+    assert!(dropped[0] > 0, "1 Mbaud is too slow for it");
+    assert_eq!(dropped[1], 0);
 }
 
 /// The receiver samples the stop bit ⌊9½·D⌋ to ⌊9½·D⌋ + 1 clocks behind the start bit's edge: that
@@ -104,7 +142,7 @@ fn rates_may_differ_until_a_stop_bit_is_missed() {
 
 #[test]
 fn a_session_holds_with_a_host_three_percent_off() {
-    let (profile, divisor) = (small(), Target::Icebreaker.parameters().divisor());
+    let (profile, divisor) = (small(), Target::Icebreaker.parameters().bits().least());
     let (calibration, samples) = (calibration(&profile), samples(&profile, 12));
     let expected = simulated(&profile, &calibration, &samples);
     for error in [-0.03, 0.03] {

@@ -72,8 +72,8 @@ fn no_signal_of_a_peripheral_can_overflow() {
         prove(&AdcReader::new(&profile, &parameters));
         prove(&SigmaDelta::new(core.outputs().carrier));
         prove(&Pads::new(profile.pads, parameters.dead()));
-        prove(&Receiver::new(parameters.divisor()));
-        prove(&Transmitter::new(parameters.divisor()));
+        prove(&Receiver::new(parameters.bits()));
+        prove(&Transmitter::new(parameters.bits()));
         let registers = CommandRegisters::new(
             core.inputs().calibration,
             core.estimator().table().words as u64,
@@ -81,7 +81,7 @@ fn no_signal_of_a_peripheral_can_overflow() {
         );
         prove(&Stream::new(
             &profile,
-            parameters.divisor(),
+            parameters.bits(),
             registers.outputs().data,
             parameters.output().as_ref(),
         ));

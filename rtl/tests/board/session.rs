@@ -54,7 +54,7 @@ impl Session {
             bench: Bench::new(board),
             profile: profile.clone(),
             adc,
-            host: Host::new(parameters.divisor()),
+            host: Host::new(parameters.bits().least()),
             unplugged: None,
             decoder: Decoder::new(profile),
             packets: Vec::new(),

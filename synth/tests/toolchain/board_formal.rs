@@ -130,7 +130,7 @@ fn stream(target: Target) -> (String, Known) {
     let (profile, core) = (target.profile(), Core::new(&target.profile()));
     let data = CommandRegisters::new(core.inputs().calibration, 1, None).outputs().data;
     let text = Design::of(
-        &Stream::new(&profile, target.parameters().divisor(), data, None),
+        &Stream::new(&profile, target.parameters().bits(), data, None),
         "a formal check",
     )
     .text();
@@ -154,7 +154,7 @@ fn stream(target: Target) -> (String, Known) {
 }
 
 fn transmitter(target: Target) -> (String, Known) {
-    let divisor = target.parameters().divisor();
+    let divisor = target.parameters().bits().least();
     (print(Netlist::of(&Transmitter::new(divisor)).top()), vec![("DIVISOR", divisor)])
 }
 

@@ -3,6 +3,7 @@
 
 use std::io::Write;
 
+use hapticore_host::link::Phase;
 use hapticore_host::{Packet, SlotClock};
 use hapticore_run::record::{Driven, Row};
 
@@ -26,7 +27,8 @@ impl Board {
                 target_n: self.session.target_n(usize::from(driven.pad)),
                 drive_v_rms: full_scale_v * fraction,
                 limited: driven.low || driven.high,
-                fault: driven.faults.any(),
+                // A board whose drive is off misses its host.
+                fault: driven.faults.any() && self.session.phase() == Phase::Armed,
                 free: profile.wall.map(|_| driven.free),
                 core_n: None,
             }

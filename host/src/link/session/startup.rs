@@ -76,7 +76,12 @@ impl Session {
     /// A step of the start-up.
     pub(super) fn step(&mut self, heartbeat: &Heartbeat, report: &mut impl FnMut(SessionEvent)) {
         if self.phase == Phase::Identifying {
-            report(SessionEvent::Note(words::identity(heartbeat)));
+            // A refused board is asked again and again: what it says is said once.
+            let identity = Some(words::identity(heartbeat));
+            if self.identity != identity {
+                self.identity = identity;
+                report(SessionEvent::Note(self.identity.clone().unwrap_or_default()));
+            }
             let Plan { profile, calibration, output, all_lines, .. } = &self.plan;
             self.bring_up = BringUp::new(profile, calibration, *output);
             if *all_lines {
@@ -113,7 +118,11 @@ impl Session {
                 self.identify();
             }
             Err(error) => {
-                report(SessionEvent::Note(format!("refused: {error}")));
+                if self.refused.as_ref() != Some(&error) {
+                    report(SessionEvent::Note(format!(
+                        "refused: {error}; it is tried again every 3 s"
+                    )));
+                }
                 self.refused = Some(error);
                 self.hush();
                 (self.phase, self.since) = (Phase::Refused, Instant::now());

@@ -163,7 +163,7 @@ impl Rig {
         let tones = (0..profile.slot.samples()).map(tone).collect();
         Rig {
             adc: Adc::new(Vec::new(), profile.formats.adc.width, &parameters),
-            host: Host::new(parameters.divisor()),
+            host: Host::new(parameters.bits().least()),
             dac: Dac::new(),
             pads: [Pad { share: 1.0 }; PADS],
             packets: Vec::new(),

@@ -5,7 +5,7 @@
 use std::collections::BTreeMap;
 use std::ffi::OsString;
 
-use clap::{Arg, ArgAction, Command};
+use clap::{Arg, ArgAction, Command, Id};
 use fastrand::Rng;
 
 use super::desk::Desk;
@@ -16,7 +16,8 @@ use super::values::{self, Values};
 const OFTEN: [(&str, u32); 4] = [("simulate", 8), ("replay", 5), ("hdl", 6), ("codes", 3)];
 
 /// What the parser takes only beside another option: subcommand, option, the other.
-const BESIDE: [(&str, &str, &str); 9] = [
+const BESIDE: [(&str, &str, &str); 10] = [
+    ("hdl", "baud", "board"),
     ("hdl", "clock_hz", "dac"),
     ("hdl", "full_scale_v", "dac"),
     ("live", "listen", "token"),
@@ -31,6 +32,9 @@ const BESIDE: [(&str, &str, &str); 9] = [
 /// One value in this many is hostile.
 const HOSTILE: u32 = 12;
 
+/// One line in this many may have options that exclude each other.
+const EXCLUDING: u32 = 8;
+
 /// What keeps scenes short that go on in time.
 const SHORT: &str = "--set=duration_s=0.01";
 
@@ -43,7 +47,7 @@ const RUN: u32 = 60;
 const FEW: [(&str, &str); 2] = [("--scene", "minimal-sheet"), ("--slots", "1")];
 
 /// Words that are in the wrong place.
-const WORDS: [&str; 9] =
+const WORDS: [&str; 10] =
     ["--", "-", "-h", "--help", "--version", "--no-such-option", "simulate", "", "--out", "-x"];
 
 /// Makes lines without end.
@@ -123,7 +127,7 @@ impl<'a> Generator<'a> {
     }
 
     /// The arguments of a line: those required, the rarest in two of three lines and always in a line that is made for it
-    /// (`seldom`), and one in six of the others.
+    /// (`seldom`), and one in six of the others; most lines have none that exclude each other.
     fn arguments(&mut self, path: &str, leaf: &Command, seldom: bool) -> Vec<Arg> {
         let all: Vec<&Arg> = leaf.get_arguments().filter(|argument| !is_help(argument)).collect();
         let used = |argument: &&&Arg| self.used.get(&name(path, argument)).copied().unwrap_or(0);
@@ -135,9 +139,14 @@ impl<'a> Generator<'a> {
             let share =
                 if argument.is_required_set() || argument.is_positional() { 0.98 } else { 0.17 };
             if rarest.as_ref() == Some(argument.get_id()) || self.rng.f64() < share {
-                *self.used.entry(name(path, argument)).or_default() += 1;
                 chosen.push((*argument).clone());
             }
+        }
+        if self.rng.u32(..EXCLUDING) > 0 {
+            chosen = together(leaf, chosen, rarest.as_ref());
+        }
+        for argument in &chosen {
+            *self.used.entry(name(path, argument)).or_default() += 1;
         }
         let has = |chosen: &[Arg], id: &str| chosen.iter().any(|argument| argument.get_id() == id);
         for (_, id, other) in BESIDE.iter().filter(|(of, ..)| *of == path) {
@@ -207,6 +216,24 @@ impl<'a> Generator<'a> {
             _ => line.insert(at, self.rng.choice(WORDS).expect("a word").into()),
         }
     }
+}
+
+/// The arguments that the parser takes together: `first`, then each that none before it excludes.
+fn together(leaf: &Command, mut chosen: Vec<Arg>, first: Option<&Id>) -> Vec<Arg> {
+    chosen.sort_by_key(|argument| Some(argument.get_id()) != first);
+    let mut kept: Vec<Arg> = Vec::new();
+    for argument in chosen {
+        let excludes = |a: &Arg, b: &Arg| {
+            leaf.get_arg_conflicts_with(a).iter().any(|of| of.get_id() == b.get_id())
+        };
+        if !kept.iter().any(|of| excludes(of, &argument) || excludes(&argument, of)) {
+            kept.push(argument);
+        }
+    }
+    let index =
+        |argument: &Arg| leaf.get_arguments().position(|of| of.get_id() == argument.get_id());
+    kept.sort_by_key(index);
+    kept
 }
 
 fn join(mut long: OsString, value: OsString) -> OsString {
