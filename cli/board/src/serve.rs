@@ -3,6 +3,7 @@
 
 use std::io::{self, Read, Write};
 use std::net::TcpListener;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::Duration;
@@ -45,19 +46,20 @@ pub fn serve_standard(running: &Running, stop: &dyn Fn() -> bool) -> Result<()> 
     connect(running, ends, stop)
 }
 
-/// Passes bytes between a program and the board, until the program leaves.
-fn connect(running: &Running, mut program: Ends, stop: &dyn Fn() -> bool) -> Result<()> {
-    let mut board = running.clone().open()?;
-    let ended = AtomicBool::new(false);
-    thread::scope(|scope| {
-        scope.spawn(|| {
-            pass(&mut *board.reader, &mut *program.writer, &|| ended.load(Ordering::Relaxed));
-            ended.store(true, Ordering::Relaxed);
-        });
-        let over = || stop() || ended.load(Ordering::Relaxed);
-        pass(&mut *program.reader, &mut *board.writer, &over);
-        ended.store(true, Ordering::Relaxed);
-    });
+/// Passes bytes between a program and the board, until the program leaves. Nothing waits for what the program has not
+/// read: a write may last for ever.
+fn connect(running: &Running, program: Ends, stop: &dyn Fn() -> bool) -> Result<()> {
+    let (board, ended) = (running.clone().open()?, Arc::new(AtomicBool::new(false)));
+    let Ends { reader: mut from_program, writer: mut to_program } = program;
+    let Ends { reader: mut from_board, writer: mut to_board } = board;
+    let writer = ended.clone();
+    thread::Builder::new().name("serve".into()).spawn(move || {
+        pass(&mut *from_board, &mut *to_program, &|| writer.load(Ordering::Relaxed));
+        writer.store(true, Ordering::Relaxed);
+    })?;
+    let over = || stop() || ended.load(Ordering::Relaxed);
+    pass(&mut *from_program, &mut *to_board, &over);
+    ended.store(true, Ordering::Relaxed);
     Ok(())
 }
 

@@ -109,8 +109,10 @@ tty.setraw(board_end)
 board = subprocess.Popen([hapticore, "host", "virtual", "--profile", "small", "--serve", "-"], stdin=board_end, stdout=board_end)
 host = subprocess.run([hapticore, "host", os.ttyname(host_end), "--profile", "small", "--calibration", calibration,
                        "--seconds", "1"], capture_output=True, text=True)
-board.terminate()
-board.wait()
+# Once nobody has the other side open, the board ends.
+os.close(host_end)
+os.close(board_end)
+board.wait(timeout=60)
 print(host.stdout)
 print(host.stderr, file=sys.stderr)
 sys.exit(host.returncode)

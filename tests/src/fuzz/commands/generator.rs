@@ -54,7 +54,9 @@ const WORDS: [&str; 10] =
 pub struct Generator<'a> {
     rng: Rng,
     values: Values<'a>,
+    command: Command,
     leaves: Vec<(String, Command)>,
+    /// Lines that the parser accepts, by argument.
     used: BTreeMap<String, usize>,
 }
 
@@ -66,6 +68,7 @@ impl<'a> Generator<'a> {
         Generator {
             rng: Rng::with_seed(seed),
             values: Values::new(desk),
+            command: command.clone(),
             leaves,
             used: BTreeMap::new(),
         }
@@ -78,8 +81,9 @@ impl<'a> Generator<'a> {
         let scene = self.values.scene(&mut self.rng);
         let mut groups: Vec<Vec<OsString>> = Vec::new();
         let mut positionals = Vec::new();
-        for argument in self.arguments(&path, &leaf, seldom) {
-            let words = self.words(&path, &argument, &scene);
+        let arguments = self.arguments(&path, &leaf, seldom);
+        for argument in &arguments {
+            let words = self.words(&path, argument, &scene);
             // Positional ones keep their order, wherever options stand.
             let group = if argument.is_positional() { &mut positionals } else { &mut groups };
             group.extend(words);
@@ -95,7 +99,18 @@ impl<'a> Generator<'a> {
         }
         // Behind what is misplaced, so that no such line runs in full.
         line.extend(short.into_iter().flatten());
+        if self.is_accepted(&line) {
+            for argument in &arguments {
+                *self.used.entry(name(&path, argument)).or_default() += 1;
+            }
+        }
         line
+    }
+
+    fn is_accepted(&self, line: &[OsString]) -> bool {
+        let name = OsString::from("hapticore");
+        let words = std::iter::once(&name).chain(line);
+        self.command.clone().try_get_matches_from(words).is_ok()
     }
 
     fn leaf(&mut self) -> (String, Command) {
@@ -144,9 +159,6 @@ impl<'a> Generator<'a> {
         }
         if self.rng.u32(..EXCLUDING) > 0 {
             chosen = together(leaf, chosen, rarest.as_ref());
-        }
-        for argument in &chosen {
-            *self.used.entry(name(path, argument)).or_default() += 1;
         }
         let has = |chosen: &[Arg], id: &str| chosen.iter().any(|argument| argument.get_id() == id);
         for (_, id, other) in BESIDE.iter().filter(|(of, ..)| *of == path) {

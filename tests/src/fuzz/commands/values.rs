@@ -74,7 +74,7 @@ impl<'a> Values<'a> {
                 rng,
                 "virtual virtual virtual:fig9 virtual:hockey virtual:none list tcp:127.0.0.1:9 tcp:none /dev/null no-port",
             ),
-            ("host", "target") => one_of(rng, "0=0.2 0=0 9=0.1 0=-1 0=nan 0=1e300 x 0="),
+            ("host", "target") => one_of(rng, "0=0.2 0=0 0=0.05 9=0.1 0=-1 0=1e300 0=nan x"),
             ("host", "record" | "calibrate") => {
                 one(rng, &["new.csv", "nowhere/new.csv", "folder.toml"])
             }
