@@ -82,7 +82,7 @@ impl Plant {
     /// # let plant = Plant::new(&scene, 0, &timing)?;
     /// let points = plant.friction_calibration(&[20.0, 100.0], &[0.0, 300.0]);
     /// assert_eq!((points[0].load_g, points[3].load_g, points[0].force_n), (20.0, 100.0, 0.0));
-    /// assert!((points[0].capacitance_pf - 353.4).abs() < 0.1); // at rest under 20 g
+    /// assert!((points[0].capacitance_pf - 299.1).abs() < 0.1); // at rest under 20 g
     /// assert!(points[3].force_n > points[1].force_n); // a load closes the gap
     /// # Ok::<(), hapticore_scene::SceneError>(())
     /// ```
@@ -116,7 +116,7 @@ impl Plant {
     ///     let scene = Scene::parse(&format!("{head}\n{text}"), "t.toml", &[])?;
     ///     Ok::<_, hapticore_scene::SceneError>(Plant::new(&scene, 0, &timing)?.least_rest_capacitance_pf(20.0).round())
     /// };
-    /// assert_eq!((of("[gap]\n")?, of("")?), (353.0, 318.0));
+    /// assert_eq!((of("[gap]\n")?, of("")?), (299.0, 318.0));
     /// assert_eq!(of("capacitance_pf = { timeline = [[0, 90], [1, 2], [2, 2]] }\n")?, 90.0);
     /// # Ok::<(), hapticore_scene::SceneError>(())
     /// ```

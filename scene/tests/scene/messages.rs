@@ -51,7 +51,7 @@ fn semi_implicit_refuses_rubber_that_it_would_make_swing() {
     for key in ["spring_pa_per_m = 1e15", "creep_share = 1000"] {
         let message = with("semi-implicit", key).unwrap_err().to_string();
         assert!(
-            message.contains("s.toml:5: gap.rung: expected rubber of at most 2.0e9 Pa/m"),
+            message.contains("s.toml:5: gap.rung: expected rubber of at most 1.8e9 Pa/m"),
             "{message}"
         );
         assert!(with("tr-bdf2", key).is_ok() && with("moving", key).is_ok(), "{key}");
@@ -541,8 +541,8 @@ fn release_drift_springs_and_panel_noise_that_cannot_be() {
         "s.toml:7: temperature.gradient_k: unknown key",
     );
     check(
-        "[gap]\nrung = \"semi-implicit\"\n[temperature]\nspring_percent_per_k = 10\nrise_k = 40",
-        "s.toml:5: gap.rung: expected rubber of at most 2.0e9 Pa/m",
+        "[gap]\nspring_pa_per_m = 5e8\nrung = \"semi-implicit\"\n[temperature]\nspring_percent_per_k = 10\nrise_k = 40",
+        "s.toml:6: gap.rung: expected rubber of at most 1.8e9 Pa/m",
     );
     let shunt = "[sheet]\n[shunt]\nnanofarad_per_m2 = 9\n";
     check(
@@ -557,4 +557,48 @@ fn release_drift_springs_and_panel_noise_that_cannot_be() {
         &format!("{shunt}panel_noise_mv = 1\npanel_noise_khz = 20"),
         "s.toml:8: shunt.panel_noise_khz: expected at most 10, a tenth of the carrier's frequency, got 20",
     );
+}
+
+/// Shares that are not of the pad, with the cure.
+#[test]
+fn shares_of_the_pad_that_cannot_be_name_their_key() {
+    let gap = |keys: &str, expected: &str| check(&format!("[gap]\n{keys}"), expected);
+    gap(
+        "rest_um = [12, 30]",
+        "s.toml:4: gap.area_shares: expected 2 numbers, one for each height of gap.rest_um, got 8, as many as by \
+         default; set gap.area_shares",
+    );
+    gap(
+        "rest_um = [12, 30]\narea_shares = [0.4, 0.6]",
+        "s.toml:4: gap.load_shares: expected 2 numbers, one for each height of gap.rest_um, got 8, as many as by \
+         default; set gap.load_shares",
+    );
+    gap(
+        "area_shares = [0.4, 0.6]",
+        "s.toml:5: gap.area_shares: expected 8 numbers, one for each height of gap.rest_um, got 2",
+    );
+    let two = "rest_um = [12, 30]\n";
+    gap(
+        &format!("{two}area_shares = [0.4, 0.7]\nload_shares = [2.5, 0]"),
+        "s.toml:6: gap.area_shares: expected shares of the pad's area whose sum is 1, got 1.1",
+    );
+    gap(
+        &format!("{two}area_shares = [1.4, -0.4]\nload_shares = [2.5, 0]"),
+        "s.toml:6: gap.area_shares",
+    );
+    gap(
+        &format!("{two}area_shares = [0.4, 0.6]\nload_shares = [1, 0]"),
+        "s.toml:7: gap.load_shares: expected loads per area whose sum, each times its share of the area, is 1, got 0.4",
+    );
+    gap(
+        &format!("{two}area_shares = [0.4, 0.6]\nload_shares = [4, -1]"),
+        "s.toml:7: gap.load_shares",
+    );
+    gap(
+        "contact_decay_um = 3",
+        "s.toml:5: gap.contact_decay_um: expected at most half of the insulators' 5 µm of air",
+    );
+    let of_two = format!("{SCENE}[gap]\n{two}area_shares = [0.4, 0.6]\nload_shares = [2.5, 0]\n");
+    assert!(Scene::parse(&of_two, "s.toml", &[]).is_ok());
+    assert!(Scene::parse(&format!("{SCENE}[gap]\nrest_um = [20]\n"), "s.toml", &[]).is_ok());
 }

@@ -94,7 +94,7 @@ fn a_sine_pulls_as_its_mean_square_does_but_for_a_ripple() {
     };
     assert!((mean(&sine) / mean(&rms) - 1.0).abs() < 2e-3, "{} {}", mean(&sine), mean(&rms));
     // What is left of the creep moves both by 0.15 %.
-    assert!(ripple(&sine) > 1e-2 && ripple(&rms) < 2e-3, "{} {}", ripple(&sine), ripple(&rms));
+    assert!(ripple(&sine) > 5e-3 && ripple(&rms) < 2e-3, "{} {}", ripple(&sine), ripple(&rms));
 }
 
 #[test]
@@ -131,7 +131,7 @@ fn no_load_and_600_v_and_back_leave_a_pad_as_it_was() {
         assert!(
             truths
                 .iter()
-                .all(|truth| truth.capacitance_pf > 300.0 && truth.capacitance_pf < 1251.0),
+                .all(|truth| truth.capacitance_pf > 266.0 && truth.capacitance_pf < 1251.0),
             "{level}"
         );
         let (before, after) = (truths[20].capacitance_pf, truths.last().unwrap().capacitance_pf);
@@ -151,10 +151,10 @@ fn a_pad_on_its_way_down_stays_closed_by_the_level_that_remembers() {
         let at = |time_s: f64| truths.iter().find(|truth| truth.time_s > time_s).unwrap().force_n;
         [at(0.03), at(0.09)]
     };
-    for (level, expected) in [("static", [0.400, 0.400]), ("hysteresis", [0.400, 0.517])] {
+    for (level, expected) in [("static", [0.2469, 0.2469]), ("hysteresis", [0.2469, 0.2730])] {
         let found = forces_n(level);
         for (found, expected) in found.iter().zip(expected) {
-            assert!((found - expected).abs() < 0.001, "{level}: {found} N");
+            assert!((found - expected).abs() < 1e-4, "{level}: {found} N");
         }
     }
 }
@@ -168,21 +168,23 @@ fn measurement_mm(device: &str, volt: f64, eccentricity_mm: f64, mismatch_percen
     truths(&text).last().unwrap().direction * 430.0
 }
 
-/// What the prototype's slopes were found with (docs/physics.md §4).
-const PROTOTYPE: &str = "[device]\ngravity_m_s2 = 10\n[gap]\n\
-                         rest_um = [13, 14.5, 16, 17.5, 19.106, 19.585, 26, 34]\n";
+/// The prototype's superseded device (docs/physics.md §3): patches of equal area that all bear the load.
+const SUPERSEDED: &str = "[device]\ngravity_m_s2 = 10\n[gap]\n\
+    rest_um = [13, 14.5, 16, 17.5, 19.106, 19.585, 26, 34]\n\
+    area_shares = [0.125, 0.125, 0.125, 0.125, 0.125, 0.125, 0.125, 0.125]\n\
+    load_shares = [1, 1, 1, 1, 1, 1, 1, 1]\nspring_pa_per_m = 5e8\ncontact_decay_um = 0.5\n";
 
-/// docs/physics.md §4: slopes over ± 5 mm and ± 2 mm at 0, 300 and 400 V, the prototype's with its
-/// gravity and heights, and the defaults'. A mismatch of 3 % gives an offset of −0.11 mm. Between
-/// 285 and 350 V patches pull in as the push moves, so that the slope depends on the span.
+/// docs/physics.md §4: slopes over ± 5 mm and ± 2 mm at 0, 300 and 400 V. Of the superseded device the slope depends
+/// on the span, as patches pull in with the push; the default one's crests do not fold. A mismatch of 3 % gives an
+/// offset of −0.11 mm.
 #[test]
 fn eq_10_reads_part_of_the_eccentricity_and_less_of_it_pulled_in() {
     const VOLTS: [f64; 3] = [0.0, 300.0, 400.0];
     for (device, reach_mm, slopes) in [
-        (PROTOTYPE, 5.0, [0.199, 0.148, 0.027]),
-        (PROTOTYPE, 2.0, [0.201, 0.038, 0.025]),
-        ("[gap]\n", 5.0, [0.195, 0.147, 0.026]),
-        ("[gap]\n", 2.0, [0.197, 0.037, 0.024]),
+        (SUPERSEDED, 5.0, [0.199, 0.148, 0.027]),
+        (SUPERSEDED, 2.0, [0.201, 0.038, 0.025]),
+        ("[gap]\n", 5.0, [0.0943, 0.0379, 0.0243]),
+        ("[gap]\n", 2.0, [0.0869, 0.0369, 0.0240]),
     ] {
         for (volt, expected) in VOLTS.into_iter().zip(slopes) {
             let slope = slope(device, volt, reach_mm);
@@ -195,6 +197,33 @@ fn eq_10_reads_part_of_the_eccentricity_and_less_of_it_pulled_in() {
         assert!((offset_mm + 0.1125).abs() < 1e-3, "{volt} V: {offset_mm} mm");
         let equal = measurement_mm("[gap]\n", volt, 0.0, 0.0);
         assert!(equal == 0.0, "equal electrodes measure no push");
+    }
+}
+
+/// docs/physics.md §4: by nine points over ± 2 mm, what is off the line over the span of what is read.
+#[test]
+fn the_direction_falls_with_the_voltage_and_stays_straight() {
+    for (volt, expected, off_percent) in [
+        (0.0, 0.08693, 0.241),
+        (100.0, 0.08037, 0.212),
+        (150.0, 0.07257, 0.181),
+        (200.0, 0.05727, 0.144),
+        (250.0, 0.04759, 0.110),
+        (280.0, 0.04281, 0.092),
+        (300.0, 0.03695, 0.080),
+        (350.0, 0.02871, 0.057),
+        (400.0, 0.02403, 0.039),
+    ] {
+        let places: Vec<f64> = (-4..=4).map(|n| 0.5 * f64::from(n)).collect();
+        let read = |e: &f64| measurement_mm("[gap]\n", volt, *e, 0.0);
+        let reads: Vec<f64> = places.iter().map(read).collect();
+        let squares: f64 = places.iter().map(|e| e * e).sum();
+        let slope = places.iter().zip(&reads).map(|(e, read)| e * read).sum::<f64>() / squares;
+        let mean = reads.iter().sum::<f64>() / 9.0;
+        let off = places.iter().zip(&reads).map(|(e, read)| (read - mean - slope * e).abs());
+        let off = 100.0 * off.fold(0.0, f64::max) / (reads[8] - reads[0]);
+        assert!((slope / expected - 1.0).abs() < 1e-3, "{volt} V: {slope}");
+        assert!((off - off_percent).abs() < 0.001, "{volt} V: {off} %");
     }
 }
 

@@ -124,7 +124,7 @@ fn the_truth_has_a_coefficient_that_drifts_and_the_calibration_the_nominal_one()
 fn a_fifth_of_the_coefficient_is_0_14_n_at_0_7_n() {
     let see = |drift: f64| {
         truths(&format!(
-            "{PAD}haptic_v_rms = 333\n[gap]\n[friction]\nrung = \"coulomb\"\ndrift = {drift}\n"
+            "{PAD}haptic_v_rms = 420\n[gap]\n[friction]\nrung = \"coulomb\"\ndrift = {drift}\n"
         ))[0]
             .force_n
     };

@@ -13,7 +13,7 @@
 //! docs/physics.md §3.
 
 use super::lanes::{Lanes, Real};
-use super::law::{Drive, Law, Sloped, State, roots};
+use super::law::{Drive, Law, Patch, Sloped, State, roots};
 
 /// How a step is taken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -61,23 +61,23 @@ impl Method {
         }
     }
 
-    /// The states of patches a step later; without pressure their gaps are `rest_m`.
+    /// The states of patches a step later.
     pub fn step(
         self,
         law: &Law,
-        rest_m: &[f64],
-        patches: &mut [State],
+        patches: &[Patch],
+        states: &mut [State],
         step_s: f64,
         drive: &Stages,
     ) {
-        let (some, left) = patches.as_chunks_mut::<TOGETHER>();
-        let (rest_of_some, rest_of_left) = rest_m.as_chunks::<TOGETHER>();
-        for (patches, rest_m) in some.iter_mut().zip(rest_of_some) {
-            Together::of(law, rest_m, patches, step_s).step(self, drive, patches);
+        let (patches, patches_left) = patches.as_chunks::<TOGETHER>();
+        let (states, states_left) = states.as_chunks_mut::<TOGETHER>();
+        for (patches, states) in patches.iter().zip(states) {
+            Together::of(law, patches, states, step_s).step(self, drive, states);
         }
-        for (patch, rest_m) in left.iter_mut().zip(rest_of_left) {
-            let patch = std::array::from_mut(patch);
-            Together::of(law, &[*rest_m], patch, step_s).step(self, drive, patch);
+        for (patch, state) in patches_left.iter().zip(states_left) {
+            let state = std::array::from_mut(state);
+            Together::of(law, &[*patch], state, step_s).step(self, drive, state);
         }
     }
 }
@@ -85,39 +85,39 @@ impl Method {
 /// Patches that take a step together.
 struct Together<'a, const N: usize> {
     law: &'a Law,
-    rest_m: Lanes<N>,
+    patch: Patch<Lanes<N>>,
     from: State<Lanes<N>>,
     step_s: f64,
 }
 
 impl<'a, const N: usize> Together<'a, N> {
     #[inline(always)]
-    fn of(law: &'a Law, rest_m: &[f64; N], patches: &[State; N], step_s: f64) -> Self {
-        Together { law, rest_m: Lanes(*rest_m), from: State::of_patches(patches), step_s }
+    fn of(law: &'a Law, patches: &[Patch; N], states: &[State; N], step_s: f64) -> Self {
+        let (patch, from) = (Patch::of_patches(patches), State::of_patches(states));
+        Together { law, patch, from, step_s }
     }
 
     /// Brings the patches to where they are after the step.
     #[inline]
-    fn step(&self, method: Method, drive: &Stages, patches: &mut [State; N]) {
+    fn step(&self, method: Method, drive: &Stages, states: &mut [State; N]) {
         let to = match method {
             Method::SemiImplicit => self.semi_implicit(drive.end),
             Method::ImplicitEuler => self.euler(drive.end),
             Method::Trapezoid => self.trapezoid(drive),
             Method::TrBdf2 => self.tr_bdf2(drive),
         };
-        for (k, patch) in patches.iter_mut().enumerate() {
-            *patch = to.patch(k);
+        for (k, state) in states.iter_mut().enumerate() {
+            *state = to.patch(k);
         }
     }
 
     fn semi_implicit(&self, drive: Drive) -> State<Lanes<N>> {
-        let (Together { law, rest_m, from, .. }, of) = (self, Lanes::of);
+        let (Together { law, patch, from, .. }, of) = (self, Lanes::of);
         let (step_s, share) = (of(self.step_s), self.step_s / law.creep_s);
-        let opening = law.relaxed(from.gap_m, *rest_m, drive).value
-            + law.creeping(from.gap_m, *rest_m, from.creep_m, share).value;
+        let opening = law.creeping(from.gap_m, *patch, drive, from.crept_pa, share).value;
         let damping = of(1.0) + step_s * law.film(from.gap_m).value / of(law.inertia_kg_m2);
         let speed_m_s = (from.speed_m_s + step_s * opening / of(law.inertia_kg_m2)) / damping;
-        self.settled(from.creep_m, share, from.gap_m + step_s * speed_m_s, speed_m_s)
+        self.settled(from.crept_pa, share, from.gap_m + step_s * speed_m_s, speed_m_s)
     }
 
     fn euler(&self, drive: Drive) -> State<Lanes<N>> {
@@ -127,8 +127,8 @@ impl<'a, const N: usize> Together<'a, N> {
     /// Where it would close the gap, it has overshot: then implicit Euler, for a start from closed
     /// throws the patch open again.
     fn trapezoid(&self, drive: &Stages) -> State<Lanes<N>> {
-        let Together { law, rest_m, from, step_s } = *self;
-        let base = ahead(from, law.rates(from, rest_m, drive.start), 0.5 * step_s);
+        let Together { law, patch, from, step_s } = *self;
+        let base = ahead(from, law.rates(from, patch, drive.start), 0.5 * step_s);
         let to = self.stage(base, from, 0.5 * step_s, drive.end);
         self.or_euler(to, to.gap_m, drive.end)
     }
@@ -137,9 +137,9 @@ impl<'a, const N: usize> Together<'a, N> {
     /// θ; closed, as above.
     fn tr_bdf2(&self, drive: &Stages) -> State<Lanes<N>> {
         const MIDDLE: f64 = 1.0 / (GAMMA * (2.0 - GAMMA));
-        let Together { law, rest_m, from, step_s } = *self;
+        let Together { law, patch, from, step_s } = *self;
         let theta = 0.5 * GAMMA * step_s;
-        let base = ahead(from, law.rates(from, rest_m, drive.start), theta);
+        let base = ahead(from, law.rates(from, patch, drive.start), theta);
         let middle = self.stage(base, from, theta, drive.middle);
         let mix = |middle: Lanes<N>, from: Lanes<N>| {
             Lanes::of(MIDDLE) * middle + Lanes::of(1.0 - MIDDLE) * from
@@ -147,7 +147,7 @@ impl<'a, const N: usize> Together<'a, N> {
         let base = State {
             gap_m: mix(middle.gap_m, from.gap_m),
             speed_m_s: mix(middle.speed_m_s, from.speed_m_s),
-            creep_m: mix(middle.creep_m, from.creep_m),
+            crept_pa: mix(middle.crept_pa, from.crept_pa),
         };
         let to = self.stage(base, middle, theta, drive.end);
         let least_m = Lanes::each(|k| middle.gap_m.0[k].min(to.gap_m.0[k]));
@@ -163,8 +163,8 @@ impl<'a, const N: usize> Together<'a, N> {
         drive: Drive,
     ) -> State<Lanes<N>> {
         for k in (0..N).filter(|k| least_m.0[*k] <= 0.0) {
-            let (rest_m, from) = ([self.rest_m.0[k]], [self.from.patch(k)]);
-            let alone = Together::of(self.law, &rest_m, &from, self.step_s);
+            let (patch, from) = ([self.patch.patch(k)], [self.from.patch(k)]);
+            let alone = Together::of(self.law, &patch, &from, self.step_s);
             to.set_patch(k, alone.euler(drive).patch(0));
         }
         to
@@ -179,27 +179,23 @@ impl<'a, const N: usize> Together<'a, N> {
         theta_s: f64,
         drive: Drive,
     ) -> State<Lanes<N>> {
-        let (Together { law, rest_m, .. }, of) = (self, Lanes::of);
+        let (Together { law, patch, .. }, of) = (self, Lanes::of);
         let share = theta_s / law.creep_s;
         let inertia = of(law.inertia_kg_m2 / theta_s);
         let excess = |gap_m: Lanes<N>| {
             let speed = (gap_m - base.gap_m) / of(theta_s);
-            let (film, opening) = (law.film(gap_m), law.relaxed(gap_m, *rest_m, drive));
-            let creeping = law.creeping(gap_m, *rest_m, base.creep_m, share);
+            let opening = law.creeping(gap_m, *patch, drive, base.crept_pa, share);
+            let film = law.film(gap_m);
             Sloped {
-                value: opening.value + creeping.value
-                    - film.value * speed
-                    - inertia * (speed - base.speed_m_s),
-                slope: opening.slope + creeping.slope
-                    - film.slope * speed
-                    - (film.value + inertia) / of(theta_s),
+                value: opening.value - film.value * speed - inertia * (speed - base.speed_m_s),
+                slope: opening.slope - film.slope * speed - (film.value + inertia) / of(theta_s),
             }
         };
-        let top = of(2.0) * (*rest_m + of(law.insulator_m))
+        let top = of(2.0) * (patch.rest_m + of(law.insulator_m))
             + base.gap_m.abs()
             + of(law.contact_pa / law.spring_pa_per_m);
         let gap_m = roots(of(0.0), top, near.gap_m, excess);
-        self.settled(base.creep_m, share, gap_m, (gap_m - base.gap_m) / of(theta_s))
+        self.settled(base.crept_pa, share, gap_m, (gap_m - base.gap_m) / of(theta_s))
     }
 
     /// The states at these gaps, their creep brought along implicitly; a gap that would be negative is
@@ -207,26 +203,27 @@ impl<'a, const N: usize> Together<'a, N> {
     #[inline(always)]
     fn settled(
         &self,
-        crept_m: Lanes<N>,
+        crept_pa: Lanes<N>,
         share: f64,
         gap_m: Lanes<N>,
         speed_m_s: Lanes<N>,
     ) -> State<Lanes<N>> {
-        let rest_m = self.rest_m;
-        let creep_m = (crept_m + Lanes::of(share) * (rest_m - gap_m)) / Lanes::of(1.0 + share);
+        let rest_m = self.patch.rest_m;
         let is_open = |k: usize| gap_m.0[k] > f64::EPSILON * rest_m.0[k];
         let where_open = |of: Lanes<N>| Lanes::each(|k| if is_open(k) { of.0[k] } else { 0.0 });
-        State { gap_m: where_open(gap_m), speed_m_s: where_open(speed_m_s), creep_m }
+        let gap_after_m = where_open(gap_m);
+        let crept_pa = self.law.crept(gap_after_m, rest_m, crept_pa, share);
+        State { gap_m: gap_after_m, speed_m_s: where_open(speed_m_s), crept_pa }
     }
 }
 
 /// Explicitly ahead by θ.
 #[inline(always)]
-fn ahead<R: Real>(from: State<R>, (acceleration, creep_m_s): (R, R), theta_s: f64) -> State<R> {
+fn ahead<R: Real>(from: State<R>, (acceleration, creep_pa_s): (R, R), theta_s: f64) -> State<R> {
     let theta_s = R::of(theta_s);
     State {
         gap_m: from.gap_m + theta_s * from.speed_m_s,
         speed_m_s: from.speed_m_s + theta_s * acceleration,
-        creep_m: from.creep_m + theta_s * creep_m_s,
+        crept_pa: from.crept_pa + theta_s * creep_pa_s,
     }
 }

@@ -5,59 +5,105 @@
 //! Without contact the balance is a cubic in h = g + d, so its largest root, and the fold where it
 //! vanishes, have a closed form: V_PI = √(8κh₀³/27ε₀). The contact only adds pressure, so the root
 //! with it lies above the cubic's, where the balance falls steadily: bisection cannot miss it. Past
-//! the fold the contact alone holds the patch. Source: docs/physics.md §3.
+//! that fold the contact may still hold the patch in front of it; where it does not, the patch closes. The
+//! balance has one bend, where the contact's decay length is at most half of d: it falls, rises between a
+//! valley and a peak, if at all, and falls. Source: docs/physics.md §3.
 
-use super::law::{Drive, Law, Sloped, root};
+use super::law::{Drive, Law, Patch, Sloped, root};
 
 /// The gap in equilibrium; the insulators themselves do not yield, so it is never negative.
-pub(super) fn equilibrium(law: &Law, rest_m: f64, drive: Drive) -> f64 {
-    let balance = |gap: f64| law.relaxed(gap, rest_m, drive);
-    let open_height = rest_m + law.insulator_m;
-    let unpulled = open_height - drive.pressure_pa / law.spring_pa_per_m;
-    let top = rest_m + law.contact_pa / law.spring_pa_per_m;
+pub(super) fn equilibrium(law: &Law, patch: Patch, drive: Drive) -> f64 {
+    let balance = |gap: f64| law.relaxed(gap, patch, drive);
+    let open_height = patch.rest_m + law.insulator_m;
+    let unpulled = open_height - patch.load_share * drive.pressure_pa / law.spring_pa_per_m;
+    let top = patch.rest_m + law.contact_pa / law.spring_pa_per_m;
+    if let Some(height) = open_root(unpulled, drive.pull_n / law.spring_pa_per_m) {
+        let open = (height - law.insulator_m).max(0.0);
+        return root(open, top, open, balance);
+    }
     let fold = (unpulled * 2.0 / 3.0 - law.insulator_m).max(0.0);
-    match open_root(unpulled, drive.pull_n / law.spring_pa_per_m) {
-        Some(height) => {
-            let open = (height - law.insulator_m).max(0.0);
-            root(open, top, open, balance)
+    if balance(fold).value >= 0.0 {
+        return root(fold, top, fold, balance);
+    }
+    match Rise::below(law, drive, fold) {
+        Some(rise) if balance(rise.peak_m).value >= 0.0 => {
+            root(rise.peak_m, fold, rise.peak_m, balance)
         }
-        None if balance(fold).value >= 0.0 => root(fold, top, fold, balance),
+        Some(rise) => root(0.0, rise.valley_m, 0.0, balance),
         None => root(0.0, fold, 0.0, balance),
     }
 }
 
 /// The gap in equilibrium that a patch let go at `from_m` comes to: a patch that has pulled in stays
 /// closed down to a lower voltage than it closed at.
-pub(super) fn equilibrium_from(law: &Law, rest_m: f64, drive: Drive, from_m: f64) -> f64 {
-    let open_m = equilibrium(law, rest_m, drive);
-    let balance = |gap: f64| law.relaxed(gap, rest_m, drive);
+pub(super) fn equilibrium_from(law: &Law, patch: Patch, drive: Drive, from_m: f64) -> f64 {
+    let open_m = equilibrium(law, patch, drive);
+    let balance = |gap: f64| law.relaxed(gap, patch, drive).value;
     if from_m >= open_m {
         return open_m;
     }
-    match valley(law, drive, open_m).filter(|valley_m| balance(*valley_m).value < 0.0) {
-        Some(valley_m) if from_m <= valley_m || balance(from_m).value < 0.0 => {
-            root(0.0, valley_m, 0.0, balance)
+    match Rise::below(law, drive, open_m) {
+        Some(Rise { valley_m, .. })
+            if balance(valley_m) < 0.0 && (from_m <= valley_m || balance(from_m) < 0.0) =>
+        {
+            root(0.0, valley_m, 0.0, |gap| law.relaxed(gap, patch, drive))
         }
         _ => open_m,
     }
 }
 
-/// Where the balance is least between the contact and the open gap; none where it falls all the
-/// way. Its slope rises while the contact fades, and falls with the attraction's.
-fn valley(law: &Law, drive: Drive, open_m: f64) -> Option<f64> {
-    let slope = |gap: f64| {
-        let height = gap + law.insulator_m;
-        let stiffness = law.contact_pa / law.contact_decay_m * (-gap / law.contact_decay_m).exp();
-        let value = 2.0 * drive.pull_n / height.powi(3) - law.spring_pa_per_m - stiffness;
-        let bend = stiffness / law.contact_decay_m - 6.0 * drive.pull_n / height.powi(4);
-        Sloped { value, slope: bend }
-    };
-    let steepest_m = root(0.0, open_m, 0.0, |gap| Sloped { value: slope(gap).slope, slope: 0.0 });
-    let falling = |gap: f64| {
-        let Sloped { value, slope } = slope(gap);
-        Sloped { value: -value, slope: -slope }
-    };
-    (slope(steepest_m).value > 0.0).then(|| root(0.0, steepest_m, 0.0, falling))
+/// The gaps between which a patch's balance rises: contact has faded, and attraction falls faster than the spring.
+struct Rise {
+    valley_m: f64,
+    peak_m: f64,
+}
+
+impl Rise {
+    /// The rise below a gap; none where the balance falls all the way.
+    fn below(law: &Law, drive: Drive, most_m: f64) -> Option<Rise> {
+        let rises = |gap: f64| slope(law, drive, gap).value;
+        // The contact's share of the bend by the attraction's is largest here.
+        let from_m = (4.0 * law.contact_decay_m - law.insulator_m).clamp(0.0, most_m);
+        let bends = |gap: f64| bend(law, drive, gap);
+        let steepest_m = match bends(from_m).value > 0.0 {
+            true => root(from_m, most_m, from_m, bends),
+            false => 0.0,
+        };
+        if rises(steepest_m) <= 0.0 {
+            return None;
+        }
+        let falling = |gap: f64| {
+            let Sloped { value, slope } = slope(law, drive, gap);
+            Sloped { value: -value, slope: -slope }
+        };
+        let valley_m = root(0.0, steepest_m, 0.0, falling);
+        let peak_m = root(steepest_m, most_m, steepest_m, |gap| slope(law, drive, gap));
+        Some(Rise { valley_m, peak_m })
+    }
+}
+
+/// The balance's derivative and its second one: neither the load nor the rest gap is in them.
+fn slope(law: &Law, drive: Drive, gap_m: f64) -> Sloped {
+    let (height, contact) = (gap_m + law.insulator_m, contact_pa_per_m(law, gap_m));
+    Sloped {
+        value: 2.0 * drive.pull_n / height.powi(3) - law.spring_pa_per_m - contact,
+        slope: bend(law, drive, gap_m).value,
+    }
+}
+
+/// The balance's second derivative and its third one.
+fn bend(law: &Law, drive: Drive, gap_m: f64) -> Sloped {
+    let height = gap_m + law.insulator_m;
+    let contact = contact_pa_per_m(law, gap_m) / law.contact_decay_m;
+    Sloped {
+        value: contact - 6.0 * drive.pull_n / height.powi(4),
+        slope: 24.0 * drive.pull_n / height.powi(5) - contact / law.contact_decay_m,
+    }
+}
+
+/// Stiffness of the contact.
+fn contact_pa_per_m(law: &Law, gap_m: f64) -> f64 {
+    law.contact_pa / law.contact_decay_m * (-gap_m / law.contact_decay_m).exp()
 }
 
 /// Largest root of h²(H − h) = a, by the trigonometric form; none past the fold a = 4H³/27.

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The mechanics of a patch of the pad, per unit of its area.
 //!
-//!   m·g̈ + c(g)·ġ = κ(g₀ − g) + k₁(g₀ − g − z) + p₀·e^(−g/λ) − ½ε₀V²/(g+d)² − W/S
-//!   ż = (g₀ − g − z)/τ,   c(g) = 1.5·η·R²/(g+g_v)³
+//!   P(g) = κ·(g₀ − g) + p₀·e^(−g/λ)                                     (spring and contact)
+//!   m·g̈ + c(g)·ġ = P + r·(P − z) − ½ε₀V²/(g+d)² − s·W/S
+//!   ż = (P − z)/τ,   c(g) = 1.5·η·R_f²/(g+g_v)³
 //!
-//! z is the part of the compression that the rubber has crept after; relaxed, z = g₀ − g. The film
-//! is Stefan's for a disc of the patch's area: 1.5πηR⁴ over the area πR². Source: docs/physics.md
-//! §3.
+//! z is the part of the pressure that the rubber has crept after; relaxed, z = P. Creep brought along
+//! implicitly over a share θ/τ of its time, z⁺ = (z + share·P)/(1 + share), so P − z⁺ = (P − z)/(1 + share):
+//! g alone decides it. The film is Stefan's for a disc of radius R_f: 1.5πηR_f⁴ over its area. Source:
+//! docs/physics.md §3.
 
 use super::lanes::{Lanes, Real};
 use crate::device::EPSILON_0;
@@ -33,6 +35,32 @@ impl Drive {
     }
 }
 
+/// What sets a patch apart from the others; several, where `R` is [`Lanes`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Patch<R = f64> {
+    /// Gap g₀ without pressure, m.
+    pub rest_m: R,
+    /// s: the load per area that the patch bears, over the pad's.
+    pub load_share: R,
+}
+
+impl<const N: usize> Patch<Lanes<N>> {
+    /// Patches side by side.
+    #[inline(always)]
+    pub fn of_patches(patches: &[Patch; N]) -> Self {
+        Patch {
+            rest_m: Lanes::each(|k| patches[k].rest_m),
+            load_share: Lanes::each(|k| patches[k].load_share),
+        }
+    }
+
+    /// One of the patches.
+    #[inline(always)]
+    pub fn patch(&self, k: usize) -> Patch {
+        Patch { rest_m: self.rest_m.0[k], load_share: self.load_share.0[k] }
+    }
+}
+
 /// Where a patch is and how it moves; several, where `R` is [`Lanes`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct State<R = f64> {
@@ -40,8 +68,8 @@ pub(super) struct State<R = f64> {
     pub gap_m: R,
     /// Speed ġ of the gap, m/s.
     pub speed_m_s: R,
-    /// Crept part z of the compression, m.
-    pub creep_m: R,
+    /// Crept part z of the pressure of spring and contact, Pa.
+    pub crept_pa: R,
 }
 
 impl<const N: usize> State<Lanes<N>> {
@@ -51,7 +79,7 @@ impl<const N: usize> State<Lanes<N>> {
         State {
             gap_m: Lanes::each(|k| patches[k].gap_m),
             speed_m_s: Lanes::each(|k| patches[k].speed_m_s),
-            creep_m: Lanes::each(|k| patches[k].creep_m),
+            crept_pa: Lanes::each(|k| patches[k].crept_pa),
         }
     }
 
@@ -59,7 +87,7 @@ impl<const N: usize> State<Lanes<N>> {
     #[inline(always)]
     pub fn patch(&self, k: usize) -> State {
         let (gap_m, speed_m_s) = (self.gap_m.0[k], self.speed_m_s.0[k]);
-        State { gap_m, speed_m_s, creep_m: self.creep_m.0[k] }
+        State { gap_m, speed_m_s, crept_pa: self.crept_pa.0[k] }
     }
 
     /// Replaces one of the patches.
@@ -67,7 +95,7 @@ impl<const N: usize> State<Lanes<N>> {
     pub fn set_patch(&mut self, k: usize, patch: State) {
         self.gap_m.0[k] = patch.gap_m;
         self.speed_m_s.0[k] = patch.speed_m_s;
-        self.creep_m.0[k] = patch.creep_m;
+        self.crept_pa.0[k] = patch.crept_pa;
     }
 }
 
@@ -76,47 +104,79 @@ impl<const N: usize> State<Lanes<N>> {
 pub(super) struct Law {
     /// κ: of the relaxed rubber.
     pub spring_pa_per_m: f64,
-    /// k₁: what creeps away.
-    pub creep_spring_pa_per_m: f64,
-    /// Creep time τ, s.
-    pub creep_s: f64,
     /// Contact pressure p₀ at zero gap, Pa.
     pub contact_pa: f64,
     /// Decay length λ of the contact pressure, m.
     pub contact_decay_m: f64,
-    /// d: thickness of the insulators as so much air.
+    /// r: what the pressure has more before it creeps.
+    pub creep_share: f64,
+    /// Creep time τ, s.
+    pub creep_s: f64,
+    /// d: thickness of the insulators as so much air, m.
     pub insulator_m: f64,
-    /// Film constant 1.5·η·R², N·s.
+    /// Film constant 1.5·η·R_f², N·s.
     pub film_n_s: f64,
-    /// g_v: what the film keeps of its thickness in contact.
+    /// g_v: what the film keeps of its thickness in contact, m.
     pub film_rest_m: f64,
     /// Inertia m per area, kg/m².
     pub inertia_kg_m2: f64,
 }
 
 impl Law {
-    /// Pressure that opens a patch of relaxed rubber, resting at `rest_m`, Pa.
+    /// P(g): pressure of spring and contact, relaxed, Pa.
     #[inline(always)]
-    pub fn relaxed<R: Real>(&self, gap_m: R, rest_m: R, drive: Drive) -> Sloped<R> {
-        let of = R::of;
-        let contact = of(self.contact_pa) * (-gap_m / of(self.contact_decay_m)).exp();
-        let height = gap_m + of(self.insulator_m);
-        let attraction = of(drive.pull_n) / (height * height);
+    pub fn rubber<R: Real>(&self, gap_m: R, rest_m: R) -> Sloped<R> {
+        let contact = R::of(self.contact_pa) * (-gap_m / R::of(self.contact_decay_m)).exp();
         Sloped {
-            value: of(self.spring_pa_per_m) * (rest_m - gap_m) + contact
-                - attraction
-                - of(drive.pressure_pa),
-            slope: of(-self.spring_pa_per_m) - contact / of(self.contact_decay_m)
-                + of(2.0) * attraction / height,
+            value: R::of(self.spring_pa_per_m) * (rest_m - gap_m) + contact,
+            slope: R::of(-self.spring_pa_per_m) - contact / R::of(self.contact_decay_m),
         }
     }
 
-    /// Pressure of the rubber that has not crept yet, with z brought along implicitly: z = (crept +
-    /// share·x)/(1 + share).
+    /// Attraction and load: what closes a patch, Pa.
     #[inline(always)]
-    pub fn creeping<R: Real>(&self, gap_m: R, rest_m: R, crept_m: R, share: f64) -> Sloped<R> {
-        let spring = self.creep_spring_pa_per_m / (1.0 + share);
-        Sloped { value: R::of(spring) * (rest_m - gap_m - crept_m), slope: R::of(-spring) }
+    fn closing<R: Real>(&self, gap_m: R, patch: Patch<R>, drive: Drive) -> Sloped<R> {
+        let height = gap_m + R::of(self.insulator_m);
+        let attraction = R::of(drive.pull_n) / (height * height);
+        Sloped {
+            value: attraction + patch.load_share * R::of(drive.pressure_pa),
+            slope: R::of(-2.0) * attraction / height,
+        }
+    }
+
+    /// Pressure that opens a patch of relaxed rubber, Pa.
+    #[inline(always)]
+    pub fn relaxed<R: Real>(&self, gap_m: R, patch: Patch<R>, drive: Drive) -> Sloped<R> {
+        let (rubber, closing) =
+            (self.rubber(gap_m, patch.rest_m), self.closing(gap_m, patch, drive));
+        Sloped { value: rubber.value - closing.value, slope: rubber.slope - closing.slope }
+    }
+
+    /// Pressure that opens a patch whose rubber creeps on from `crept_pa` over a share of its time.
+    #[inline(always)]
+    pub fn creeping<R: Real>(
+        &self,
+        gap_m: R,
+        patch: Patch<R>,
+        drive: Drive,
+        crept_pa: R,
+        share: f64,
+    ) -> Sloped<R> {
+        let more = self.creep_share / (1.0 + share);
+        let (rubber, closing) =
+            (self.rubber(gap_m, patch.rest_m), self.closing(gap_m, patch, drive));
+        let (all, more) = (R::of(1.0 + more), R::of(more));
+        Sloped {
+            value: all * rubber.value - more * crept_pa - closing.value,
+            slope: all * rubber.slope - closing.slope,
+        }
+    }
+
+    /// z once it has crept on, at the gap after.
+    #[inline(always)]
+    pub fn crept<R: Real>(&self, gap_m: R, rest_m: R, crept_pa: R, share: f64) -> R {
+        let rubber = self.rubber(gap_m, rest_m).value;
+        (crept_pa + R::of(share) * rubber) / R::of(1.0 + share)
     }
 
     /// Damping c(g) of the air film, Pa·s/m, and its derivative.
@@ -129,13 +189,14 @@ impl Law {
 
     /// g̈ and ż.
     #[inline(always)]
-    pub fn rates<R: Real>(&self, state: State<R>, rest_m: R, drive: Drive) -> (R, R) {
-        let State { gap_m, speed_m_s, creep_m } = state;
-        let opening = self.relaxed(gap_m, rest_m, drive).value
-            + self.creeping(gap_m, rest_m, creep_m, 0.0).value;
-        let acceleration =
-            (opening - self.film(gap_m).value * speed_m_s) / R::of(self.inertia_kg_m2);
-        (acceleration, (rest_m - gap_m - creep_m) / R::of(self.creep_s))
+    pub fn rates<R: Real>(&self, state: State<R>, patch: Patch<R>, drive: Drive) -> (R, R) {
+        let State { gap_m, speed_m_s, crept_pa } = state;
+        let rubber = self.rubber(gap_m, patch.rest_m).value;
+        let unrelaxed = rubber - crept_pa;
+        let opening = rubber + R::of(self.creep_share) * unrelaxed
+            - self.closing(gap_m, patch, drive).value
+            - self.film(gap_m).value * speed_m_s;
+        (opening / R::of(self.inertia_kg_m2), unrelaxed / R::of(self.creep_s))
     }
 }
 

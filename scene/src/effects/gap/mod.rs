@@ -29,6 +29,7 @@ mod law;
 mod pad;
 mod quasi_static;
 mod read;
+mod read_rubber;
 mod rubber;
 
 pub(super) use read::read;

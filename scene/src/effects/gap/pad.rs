@@ -6,7 +6,7 @@
 
 use super::dynamic::Method;
 use super::equilibrium::equilibrium_from;
-use super::law::{Drive, State};
+use super::law::{Drive, Patch, State};
 use super::quasi_static;
 use super::rubber::{Rubber, agreed_v, at_rest};
 use crate::device::EPSILON_0;
@@ -129,19 +129,19 @@ impl Gap {
     /// The equilibria that the patches find from where they are.
     fn relax(&self, patches: &mut [State], pad: &Pad, pull: Pull) {
         let pressure_pa = self.rubber.pa_per_g * pull.load_g;
-        let from = patches.iter().zip(&self.rubber.rest_m);
+        let from = patches.iter().zip(&self.rubber.patches);
         let capacitance_f = |volt: f64| {
             let drive = Drive::new(pad.pulling_v(volt), pressure_pa);
             let gaps = from
                 .clone()
-                .map(|(at, rest)| equilibrium_from(&self.rubber.law, *rest, drive, at.gap_m));
+                .map(|(at, patch)| equilibrium_from(&self.rubber.law, *patch, drive, at.gap_m));
             self.rubber.capacitance_f(gaps)
         };
         let volt = agreed_v(pull.source_v_rms, pad.supply, capacitance_f);
         let drive = Drive::new(pad.pulling_v(volt), pressure_pa);
-        for (patch, rest) in patches.iter_mut().zip(&self.rubber.rest_m) {
-            let gap_m = equilibrium_from(&self.rubber.law, *rest, drive, patch.gap_m);
-            *patch = at_rest(*rest, gap_m);
+        for (state, patch) in patches.iter_mut().zip(&self.rubber.patches) {
+            let gap_m = equilibrium_from(&self.rubber.law, *patch, drive, state.gap_m);
+            *state = at_rest(&self.rubber.law, *patch, gap_m);
         }
     }
 
@@ -186,18 +186,18 @@ impl Gap {
     fn begin(&self, drive: &PadDrive) -> Moving {
         let pressure_pa = self.rubber.pa_per_g * drive.pull(Moment::at(0.0)).load_g;
         let gaps = self.rubber.equilibrium_m(Drive::new(0.0, pressure_pa));
-        let still = |(gap_m, rest_m): (f64, &f64)| at_rest(*rest_m, gap_m);
-        let patches = gaps.zip(&self.rubber.rest_m).map(still).collect();
+        let still = |(gap_m, patch): (f64, &Patch)| at_rest(&self.rubber.law, *patch, gap_m);
+        let patches = gaps.zip(&self.rubber.patches).map(still).collect();
         Moving { tick: Tick::default(), patches }
     }
 
     /// Brings the patches from one time to another, between which nothing steps.
-    fn step(&self, patches: &mut [State], [from_s, to_s]: [f64; 2], pad: &Pad, drive: &PadDrive) {
+    fn step(&self, states: &mut [State], [from_s, to_s]: [f64; 2], pad: &Pad, drive: &PadDrive) {
         if self.motion == Motion::Hysteresis {
-            return self.relax(patches, pad, drive.pull(Moment::before(to_s)));
+            return self.relax(states, pad, drive.pull(Moment::before(to_s)));
         }
         let span_s = to_s - from_s;
-        let seen = self.seen_square(patches, pad.supply);
+        let seen = self.seen_square(states, pad.supply);
         let at = |fraction: f64| {
             let moment = match fraction {
                 0.0 => Moment::at(from_s + slack_s(self.step_s)),
@@ -207,13 +207,13 @@ impl Gap {
             let charge = pad.charge.map(|charge| charge.ago(to_s - moment.time_s));
             self.drive(seen, drive.pull(moment), moment.time_s, charge)
         };
-        let (law, rest_m) = (&self.rubber.law, &self.rubber.rest_m);
+        let rubber = &self.rubber;
         if let Motion::Dynamic(method) = self.motion {
-            return method.step(law, rest_m, patches, span_s, &method.stages(at));
+            return method.step(&rubber.law, &rubber.patches, states, span_s, &method.stages(at));
         }
         let end = at(1.0);
-        for (patch, rest_m) in patches.iter_mut().zip(rest_m) {
-            *patch = quasi_static::advance(law, *rest_m, *patch, span_s, end);
+        for (state, patch) in states.iter_mut().zip(&rubber.patches) {
+            *state = quasi_static::advance(&rubber.law, *patch, *state, span_s, end);
         }
     }
 

@@ -7,22 +7,18 @@
 //! cut: a gap changes by at most a share of itself. That is what passes the fold and the closure.
 //! Source: docs/physics.md §3.
 
-use super::law::{Drive, Law, Sloped, State};
+use super::law::{Drive, Law, Patch, Sloped, State};
 
 /// The most that a step changes the film's thickness, as a share of it.
 const MOST_CHANGE: f64 = 1.0 / 64.0;
 
 /// The state after `span_s` at one drive.
-pub(super) fn advance(law: &Law, rest_m: f64, mut at: State, span_s: f64, drive: Drive) -> State {
+pub(super) fn advance(law: &Law, patch: Patch, mut at: State, span_s: f64, drive: Drive) -> State {
     let mut left_s = span_s;
     while left_s > 0.0 {
-        let share = left_s / law.creep_s;
-        let creeping = law.creeping(at.gap_m, rest_m, at.creep_m, share);
-        let opening = law.relaxed(at.gap_m, rest_m, drive);
-        let opening =
-            Sloped { value: opening.value + creeping.value, slope: opening.slope + creeping.slope };
+        let opening = law.creeping(at.gap_m, patch, drive, at.crept_pa, left_s / law.creep_s);
         let step_s = longest(law, at.gap_m, opening).min(left_s);
-        at = step(law, rest_m, at, step_s, opening);
+        at = step(law, patch, at, step_s, opening);
         left_s -= step_s;
     }
     at
@@ -35,10 +31,9 @@ fn longest(law: &Law, gap_m: f64, opening: Sloped) -> f64 {
     if speed > 0.0 { most * law.film(gap_m).value / speed } else { f64::INFINITY }
 }
 
-fn step(law: &Law, rest_m: f64, from: State, step_s: f64, opening: Sloped) -> State {
+fn step(law: &Law, patch: Patch, from: State, step_s: f64, opening: Sloped) -> State {
     let change = step_s * opening.value / (law.film(from.gap_m).value - step_s * opening.slope);
     let gap_m = (from.gap_m + change).max(0.0);
-    let share = step_s / law.creep_s;
-    let creep_m = (from.creep_m + share * (rest_m - gap_m)) / (1.0 + share);
-    State { gap_m, speed_m_s: change / step_s, creep_m }
+    let crept_pa = law.crept(gap_m, patch.rest_m, from.crept_pa, step_s / law.creep_s);
+    State { gap_m, speed_m_s: change / step_s, crept_pa }
 }

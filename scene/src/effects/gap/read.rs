@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `[gap]` as a scene writes it.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
 use super::dynamic::Method;
-use super::law::Law;
 use super::pad::{Gap, Motion};
+use super::read_rubber::read_rubber;
 use super::rubber::Rubber;
 use crate::device::Device;
 use crate::effects::effect::Effect;
@@ -14,13 +14,6 @@ use crate::effects::temperature;
 use crate::error::SceneError;
 use crate::format::{Limits, Table};
 use crate::wave::HapticWave;
-
-/// Heights g₀ + d of eight patches of equal area, µm: fitted to the paper's Fig. 7 with the mean
-/// square of the drive (docs/physics.md §3).
-const REST_UM: [f64; 8] = [13.0, 14.5, 16.0, 17.5, 19.0664, 19.5503, 26.0, 34.0];
-
-/// Viscosity of air, Pa·s.
-const AIR_PA_S: f64 = 1.8e-5;
 
 /// The longest step, µs.
 const LONGEST_US: f64 = 1000.0;
@@ -133,7 +126,7 @@ fn check_spring(
     step_us: f64,
 ) -> Result<(), String> {
     let Motion::Dynamic(method) = motion else { return Ok(()) };
-    let spring = stiffness * (rubber.law.spring_pa_per_m + rubber.law.creep_spring_pa_per_m);
+    let spring = stiffness * (1.0 + rubber.law.creep_share) * rubber.law.spring_pa_per_m;
     let stiffest = rubber.stiffest_pa_per_m(method, 1e-6 * step_us);
     if spring <= stiffest {
         return Ok(());
@@ -142,39 +135,4 @@ fn check_spring(
         "expected rubber of at most {stiffest:.1e} Pa/m with all that creeps of it, beyond which steps of \
          {step_us} µs swing ever wider, got {spring:.1e}; a shorter step_us or tr-bdf2 holds more"
     ))
-}
-
-fn read_rubber(table: &Table, device: &Device) -> Result<Rubber, SceneError> {
-    let thickness_um = table.number_or("insulator_um", Limits::within(0.01, 1e4), 16.0)?;
-    let permittivity = table.number_or("insulator_permittivity", Limits::within(1.0, 1e5), 3.2)?;
-    let insulator_um = thickness_um / permittivity;
-    let heights = Limits::above(insulator_um, 1e4);
-    let rest_um = table.numbers("rest_um", heights)?.unwrap_or(REST_UM.to_vec());
-    if let Some(height) = rest_um.iter().find(|height| !heights.holds(**height)) {
-        let message = format!(
-            "expected insulators that are thinner than air by permittivity than the lowest patch, {height} µm \
-             above the film, got {insulator_um} µm; set gap.rest_um, too"
-        );
-        return Err(table.error("insulator_um", message));
-    }
-    let patch_m2 = device.pad_area_m2 / rest_um.len() as f64;
-    let spring_pa_per_m = table.number_or("spring_pa_per_m", Limits::within(1e3, 1e15), 5e8)?;
-    let law = Law {
-        spring_pa_per_m,
-        creep_spring_pa_per_m: spring_pa_per_m
-            * table.number_or("creep_share", Limits::within(0.0, 1e4), 0.35)?,
-        creep_s: table.number_or("creep_s", Limits::within(1e-6, 1e6), 1.5)?,
-        contact_pa: table.number_or("contact_pa", Limits::within(0.0, 1e10), 2e5)?,
-        contact_decay_m: 1e-6
-            * table.number_or("contact_decay_um", Limits::within(1e-3, 1e3), 0.5)?,
-        insulator_m: 1e-6 * insulator_um,
-        film_n_s: 1.5
-            * table.number_or("film_pa_s", Limits::within(1e-9, 1e3), AIR_PA_S)?
-            * patch_m2
-            / PI,
-        film_rest_m: 1e-6 * table.number_or("film_rest_um", Limits::within(1e-3, 1e3), 0.7)?,
-        inertia_kg_m2: table.number_or("inertia_kg_m2", Limits::within(1e-3, 1e6), 7.0)?,
-    };
-    let rest_m = rest_um.iter().map(|um| 1e-6 * (um - insulator_um)).collect();
-    Ok(Rubber::new(law, patch_m2, device.weight_n(1.0) / device.pad_area_m2, rest_m))
 }

@@ -3,16 +3,20 @@
 //! shares no code with the plant.
 
 /// Heights g₀ + d of the patches, µm.
-pub const REST_UM: [f64; 8] = [13.0, 14.5, 16.0, 17.5, 19.0664, 19.5503, 26.0, 34.0];
+pub const REST_UM: [f64; 8] = [12.0, 26.4, 27.7, 29.3, 33.6, 38.191, 39.847, 55.0];
+
+/// Shares of the pad's area; the first patch bears all of the load.
+const AREA_SHARES: [f64; 8] = [0.365, 0.11, 0.065, 0.04, 0.025, 0.1, 0.1, 0.195];
 
 const EPSILON_0: f64 = 8.8541878128e-12;
-const KAPPA: f64 = 5e8;
-const K_1: f64 = 0.35 * KAPPA;
+const KAPPA: f64 = 4.5e7;
+const CREEP_SHARE: f64 = 0.6;
 const TAU_S: f64 = 1.5;
 const P_0: f64 = 2e5;
-const LAMBDA_M: f64 = 0.5e-6;
+const LAMBDA_M: f64 = 1.25e-6;
 const D_M: f64 = 5e-6;
 const FILM_REST_M: f64 = 0.7e-6;
+const FILM_AREA_SHARE: f64 = 0.4;
 const VISCOSITY_PA_S: f64 = 1.8e-5;
 const INERTIA: f64 = 7.0;
 const GRAVITY: f64 = 9.80665;
@@ -21,7 +25,7 @@ const AREA_M2: f64 = std::f64::consts::PI * 0.015 * 0.015;
 /// Longest step, s: RK4 diverges from 0.5 µs on.
 const STEP_S: f64 = 1e-7;
 
-/// A patch: gap, its speed, crept compression.
+/// A patch: gap, its speed, crept pressure.
 type Patch = [f64; 3];
 
 /// A pad of eight patches.
@@ -35,18 +39,18 @@ impl Ode {
     /// Relaxed under its load, without voltage.
     pub fn at_rest(load_g: f64, time_s: f64) -> Ode {
         let pressure_pa = 1e-3 * load_g * GRAVITY / AREA_M2;
-        let patch = |height_um: f64| {
-            let rest_m = 1e-6 * height_um - D_M;
+        let patch = |n: usize| {
+            let rest_m = 1e-6 * REST_UM[n] - D_M;
+            let load_pa = load_pa(n, pressure_pa);
             let (mut low, mut high) = (0.0, 2.0 * rest_m);
             for _ in 0..200 {
                 let middle = 0.5 * (low + high);
-                let opening =
-                    KAPPA * (rest_m - middle) + P_0 * (-middle / LAMBDA_M).exp() - pressure_pa;
-                *(if opening > 0.0 { &mut low } else { &mut high }) = middle;
+                let opens = rubber_pa(middle, n) > load_pa;
+                *(if opens { &mut low } else { &mut high }) = middle;
             }
-            [low, 0.0, rest_m - low]
+            [low, 0.0, rubber_pa(low, n)]
         };
-        Ode { time_s, pressure_pa, patches: REST_UM.map(patch) }
+        Ode { time_s, pressure_pa, patches: std::array::from_fn(patch) }
     }
 
     /// Onwards, the pad's voltage given over time and capacitance in pF; it must not step between.
@@ -54,34 +58,41 @@ impl Ode {
         let span_s = until_s - self.time_s;
         let steps = (span_s / STEP_S).ceil() as usize;
         let step_s = span_s / steps as f64;
-        for n in 0..steps {
+        for step in 0..steps {
             // Inside the step, so that a voltage that steps at its ends is on the right side.
-            let volt = volt(self.time_s + (n as f64 + 0.5) * step_s, self.capacitance_pf());
-            for (patch, height_um) in self.patches.iter_mut().zip(REST_UM) {
-                *patch = rk4(*patch, step_s, |at| rates(at, height_um, volt, self.pressure_pa));
+            let volt = volt(self.time_s + (step as f64 + 0.5) * step_s, self.capacitance_pf());
+            for (n, patch) in self.patches.iter_mut().enumerate() {
+                *patch = rk4(*patch, step_s, |at| rates(at, n, volt, self.pressure_pa));
             }
         }
         self.time_s = self.time_s.max(until_s);
     }
 
     pub fn capacitance_pf(&self) -> f64 {
-        1e12 * self
-            .patches
-            .iter()
-            .map(|[gap, ..]| EPSILON_0 * AREA_M2 / 8.0 / (gap + D_M))
-            .sum::<f64>()
+        let each = self.patches.iter().zip(AREA_SHARES);
+        1e12 * each.map(|([gap, ..], share)| EPSILON_0 * AREA_M2 * share / (gap + D_M)).sum::<f64>()
     }
 }
 
-fn rates([gap, speed, crept]: Patch, height_um: f64, volt: f64, pressure_pa: f64) -> Patch {
-    let compression = 1e-6 * height_um - D_M - gap;
-    let film =
-        1.5 * VISCOSITY_PA_S * AREA_M2 / 8.0 / std::f64::consts::PI / (gap + FILM_REST_M).powi(3);
-    let pressure =
-        KAPPA * compression + K_1 * (compression - crept) + P_0 * (-gap / LAMBDA_M).exp()
-            - EPSILON_0 * volt * volt / (2.0 * (gap + D_M).powi(2))
-            - pressure_pa;
-    [speed, (pressure - film * speed) / INERTIA, (compression - crept) / TAU_S]
+/// What presses a patch.
+fn load_pa(n: usize, pressure_pa: f64) -> f64 {
+    if n == 0 { pressure_pa / AREA_SHARES[0] } else { 0.0 }
+}
+
+/// Spring and contact.
+fn rubber_pa(gap: f64, n: usize) -> f64 {
+    KAPPA * (1e-6 * REST_UM[n] - D_M - gap) + P_0 * (-gap / LAMBDA_M).exp()
+}
+
+fn rates([gap, speed, crept]: Patch, n: usize, volt: f64, pressure_pa: f64) -> Patch {
+    let film = 1.5 * VISCOSITY_PA_S * FILM_AREA_SHARE * AREA_M2
+        / std::f64::consts::PI
+        / (gap + FILM_REST_M).powi(3);
+    let rubber = rubber_pa(gap, n);
+    let pressure = rubber + CREEP_SHARE * (rubber - crept)
+        - EPSILON_0 * volt * volt / (2.0 * (gap + D_M).powi(2))
+        - load_pa(n, pressure_pa);
+    [speed, (pressure - film * speed) / INERTIA, (rubber - crept) / TAU_S]
 }
 
 fn rk4(from: Patch, step_s: f64, rates: impl Fn(Patch) -> Patch) -> Patch {

@@ -2,30 +2,33 @@
 //! Closed forms, orders of convergence, hard cases, and the check values of docs/physics.md §3.
 
 mod closed_forms;
+mod devices;
 mod equilibria;
 mod methods;
 mod sine;
 
 use super::dynamic::{Method, Stages};
 use super::equilibrium::equilibrium;
-use super::law::{Drive, Law, State};
+use super::law::{Drive, Law, Patch, State};
 use super::quasi_static;
+use super::read_rubber::read_rubber;
+use super::rubber::{Rubber, at_rest};
+use crate::device::Device;
 
 /// ε₀ rounded to four digits, F/m.
 const ROUNDED_EPSILON_0: f64 = 8.854e-12;
 
-/// g₀ of the single patch of docs/physics.md §3: h₀ = 19.66 µm.
-const REST_M: f64 = 14.66e-6;
+/// The single stiff patch that the prototype's table of methods is of: h₀ = 19.66 µm.
+const PATCH: Patch = Patch { rest_m: 14.66e-6, load_share: 1.0 };
 
-/// The patch of docs/physics.md §3 without creep, an eighth of the pad over a film of this
-/// viscosity.
+/// Its rubber without creep, an eighth of the pad over a film of this viscosity.
 fn law(film_pa_s: f64) -> Law {
     Law {
         spring_pa_per_m: 5e8,
-        creep_spring_pa_per_m: 0.0,
-        creep_s: 1.5,
         contact_pa: 2e5,
         contact_decay_m: 0.5e-6,
+        creep_share: 0.0,
+        creep_s: 1.5,
         insulator_m: 5e-6,
         film_n_s: film_pa_s * 1.5 * 0.015 * 0.015 / 8.0,
         film_rest_m: 0.7e-6,
@@ -36,16 +39,29 @@ fn law(film_pa_s: f64) -> Law {
 /// The film of air under the patch.
 const AIR_PA_S: f64 = 1.8e-5;
 
+/// The pad that a scene with this `[gap]` has.
+fn pad(gap: &str) -> Rubber {
+    let root = crate::format::parse(&format!("[gap]\n{gap}\n")).unwrap();
+    let device = Device::read(&root).unwrap();
+    read_rubber(root.table("gap").unwrap().unwrap(), &device).unwrap()
+}
+
+/// Pull-in voltage of relaxed rubber, without contact and load: V_PI = √(8κh₀³/27ε₀).
+fn pull_in_v(law: &Law, patch: Patch, epsilon_0: f64) -> f64 {
+    let height = patch.rest_m + law.insulator_m;
+    (8.0 * law.spring_pa_per_m * height.powi(3) / (27.0 * epsilon_0)).sqrt()
+}
+
 /// The explicit method for comparison (docs/physics.md §3).
 fn rk4(law: &Law, from: State, step_s: f64, drive: Drive) -> State {
     let slope = |at: State| {
-        let (acceleration, creep) = law.rates(at, REST_M, drive);
+        let (acceleration, creep) = law.rates(at, PATCH, drive);
         [at.speed_m_s, acceleration, creep]
     };
     let ahead = |slope: [f64; 3], step: f64| State {
         gap_m: from.gap_m + step * slope[0],
         speed_m_s: from.speed_m_s + step * slope[1],
-        creep_m: from.creep_m + step * slope[2],
+        crept_pa: from.crept_pa + step * slope[2],
     };
     let a = slope(from);
     let b = slope(ahead(a, 0.5 * step_s));
@@ -66,12 +82,12 @@ enum By {
 fn step_alone(
     method: Method,
     law: &Law,
-    rest_m: f64,
+    patch: Patch,
     mut at: State,
     step_s: f64,
     stages: &Stages,
 ) -> State {
-    method.step(law, &[rest_m], std::slice::from_mut(&mut at), step_s, stages);
+    method.step(law, &[patch], std::slice::from_mut(&mut at), step_s, stages);
     at
 }
 
@@ -83,18 +99,17 @@ impl By {
     fn step(self, law: &Law, from: State, step_s: f64, drive: impl Fn(f64) -> Drive) -> State {
         match self {
             By::Rk4 => rk4(law, from, step_s, drive(0.5)),
-            By::QuasiStatic => quasi_static::advance(law, REST_M, from, step_s, drive(1.0)),
+            By::QuasiStatic => quasi_static::advance(law, PATCH, from, step_s, drive(1.0)),
             By::Dynamic(method) => {
-                step_alone(method, law, REST_M, from, step_s, &method.stages(drive))
+                step_alone(method, law, PATCH, from, step_s, &method.stages(drive))
             }
         }
     }
 }
 
 /// The relaxed patch without voltage.
-fn at_rest(law: &Law) -> State {
-    let gap_m = equilibrium(law, REST_M, Drive::new(0.0, 0.0));
-    State { gap_m, speed_m_s: 0.0, creep_m: REST_M - gap_m }
+fn undriven(law: &Law) -> State {
+    at_rest(law, PATCH, equilibrium(law, PATCH, Drive::new(0.0, 0.0)))
 }
 
 /// The patch's states every `every_s`, its voltage given over time.
@@ -108,7 +123,7 @@ fn run(
 ) -> Vec<State> {
     const INSIDE: f64 = 1e-6; // so that a step of the voltage on the grid falls between two steps of time
     let steps_each = (every_s / step_s).round() as usize;
-    let mut at = at_rest(law);
+    let mut at = undriven(law);
     let step = |n: usize| {
         let drive = |fraction: f64| {
             Drive::new(volt((n as f64 + fraction.clamp(INSIDE, 1.0 - INSIDE)) * step_s), 0.0)
