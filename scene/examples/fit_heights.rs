@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Fits the fifth and the sixth height of the gap's patches to the jumps of the paper's Fig. 7, at
+//! Fits the sixth and the seventh height of the gap's patches to the jumps of the paper's Fig. 7, at
 //! 1.0 s and 2.8 s under 50 g and 350 V RMS: with the drive's mean square and with its 200 Hz sine.
 //!
 //! `cargo run --release -p hapticore-scene --example fit_heights`
@@ -13,7 +13,7 @@ use hapticore_scene::{Plant, Scene, SceneError, Timing};
 const JUMPS_S: [f64; 2] = [1.0, 2.8];
 
 /// Where the heights are looked for, µm.
-const BETWEEN_UM: [[f64; 2]; 2] = [[18.9, 19.3], [19.35, 19.75]];
+const BETWEEN_UM: [[f64; 2]; 2] = [[37.5, 38.9], [39.2, 40.5]];
 
 const ROUNDS: usize = 3;
 
@@ -28,7 +28,7 @@ const CLOSED_S: f64 = 0.3;
 
 fn main() -> Result<(), SceneError> {
     for drive in ["rms", "sine"] {
-        let mut heights_um = [19.1, 19.55];
+        let mut heights_um = [38.2, 39.85];
         for _ in 0..ROUNDS {
             for jump in 0..2 {
                 heights_um[jump] = bisect(drive, heights_um, jump)?;
@@ -52,11 +52,11 @@ fn bisect(drive: &str, heights_um: [f64; 2], jump: usize) -> Result<f64, SceneEr
 }
 
 /// When the capacitance jumps after the drive's own jump at 0 s.
-fn jumps_s(drive: &str, [fifth, sixth]: [f64; 2]) -> Result<Vec<f64>, SceneError> {
+fn jumps_s(drive: &str, [sixth, seventh]: [f64; 2]) -> Result<Vec<f64>, SceneError> {
     let text = format!(
         "title = \"Fig. 7\"\nduration_s = 3.5\n[[pad]]\nposition_mm = [0, 0]\nload_g = 50\n\
          haptic_v_rms = 350\n[supply]\n[carrier]\nhaptic_hz = 200\n[gap]\nrung = \"tr-bdf2\"\n\
-         drive = \"{drive}\"\nrest_um = [13, 14.5, 16, 17.5, {fifth}, {sixth}, 26, 34]\n"
+         drive = \"{drive}\"\nrest_um = [12, 26.4, 27.7, 29.3, 33.6, {sixth}, {seventh}, 55]\n"
     );
     let timing = Timing {
         pads: 1,

@@ -41,6 +41,8 @@ pub(crate) struct Electrode {
     pub tilt_mm: [f64; 2],
     /// The eccentricity at which the pad tips, mm.
     pub reach_mm: f64,
+    /// What its source gives of the pad's voltage.
+    pub source_share: f64,
     /// The most that its source gives.
     pub most_v_rms: f64,
 }
@@ -51,15 +53,21 @@ impl Electrode {
         lean_per_mm: [0.0; 2],
         tilt_mm: [0.0; 2],
         reach_mm: f64::INFINITY,
+        source_share: 1.0,
         most_v_rms: f64::INFINITY,
     };
+
+    /// The voltage of the electrode's source, by the pad's.
+    pub fn source_v_rms(&self, pad_v_rms: f64) -> f64 {
+        (self.source_share * pad_v_rms).min(self.most_v_rms)
+    }
 
     /// What pulls and presses the electrode, of what does the pad.
     pub fn of_pad(&self, source_v_rms: f64, load_g: f64, eccentricity_mm: f64) -> Pull {
         let [x_mm, y_mm] = self.within_reach([eccentricity_mm + self.tilt_mm[0], self.tilt_mm[1]]);
         let [along_x, along_y] = self.lean_per_mm;
         Pull {
-            source_v_rms: source_v_rms.min(self.most_v_rms),
+            source_v_rms: self.source_v_rms(source_v_rms),
             load_g: load_g * (1.0 + along_x * x_mm + along_y * y_mm),
         }
     }

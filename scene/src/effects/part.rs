@@ -18,6 +18,7 @@ use super::sheet::ideal::ideal_split;
 use super::spec::Spec;
 use super::split_electrode::{Strip, read_strips};
 use crate::device::Device;
+use crate::drive::Electrode;
 use crate::error::SceneError;
 use crate::format::Table;
 
@@ -59,7 +60,7 @@ struct Part {
     electrodes: Vec<usize>,
     /// Where its centre lies, mm right of the pad's and above it.
     centre_mm: [f64; 2],
-    most_v_rms: f64,
+    electrode: Electrode,
 }
 
 fn parts_of(strips: &[Strip]) -> Vec<Part> {
@@ -67,13 +68,13 @@ fn parts_of(strips: &[Strip]) -> Vec<Part> {
     let side = |n: usize| Part {
         electrodes: vec![n],
         centre_mm: strips[n].centre_mm,
-        most_v_rms: strips[n].electrode.most_v_rms,
+        electrode: strips[n].electrode,
     };
     if strips[0].centre_mm[1] != 0.0 {
         return (0..strips.len()).map(side).collect();
     }
     let inner = (1..last).collect::<Vec<_>>();
-    let brake = Part { electrodes: inner, centre_mm: [0.0; 2], most_v_rms: f64::INFINITY };
+    let brake = Part { electrodes: inner, centre_mm: [0.0; 2], electrode: Electrode::WHOLE };
     [side(0), side(last)].into_iter().chain((last > 1).then_some(brake)).collect()
 }
 
@@ -87,8 +88,8 @@ impl PadEffect for Parts {
         let Some(part) = pad.part.and_then(|part| self.parts.get(part)) else { return };
         pad.force_n = Some(pad.haptic_force_n(&self.device));
         pad.capacitance_f = part.electrodes.iter().map(|n| pad.electrodes_f[*n]).sum();
-        if pad.source_v_rms > part.most_v_rms {
-            pad.haptic_v_rms *= part.most_v_rms / pad.source_v_rms;
+        if pad.source_v_rms > 0.0 {
+            pad.haptic_v_rms *= part.electrode.source_v_rms(pad.source_v_rms) / pad.source_v_rms;
         }
         pad.x_mm += part.centre_mm[0];
         pad.y_mm += part.centre_mm[1];

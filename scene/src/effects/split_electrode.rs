@@ -7,8 +7,7 @@
 //! A push off the centre, a pad's `eccentricity_mm`, presses one side more than the other; its gap
 //! closes further, and eq. 10 reads a part of e. The hand of `[hand]` pushes at `push_height_mm`
 //! above the sheet, 5 by default, which adds height·F/W to e; where the pad tips, e is at its end.
-//! `mismatch_percent` is by how much the left sensing electrode is larger than the right one: it
-//! reads as a constant offset. Each electrode has gaps of its own, at the level of `[gap]`, with its
+//! Each electrode has gaps of its own, at the level of `[gap]`, with its
 //! share s_i of the pad's area and the load per area W_i.
 //!
 //! | `strips` | electrodes | senses |
@@ -17,7 +16,13 @@
 //! | 4 | strips of a disc: the outer two have `outer_share_percent` of its area | the outer two, at `sensing_v_rms` at most where that is set |
 //! | `quadrants = true` in place of strips | quadrants of a disc: top left, bottom left, bottom right, top right; the hand's push tilts the pad along y, too | all |
 //!
-//! With `senses = "each"` a pad has a slot for each of its parts: see `part`. The truth's direction is Δx over half the sheet's width, as the ratios of eq. 10 are. Source:
+//! | electrodes on the left are | by | reads as |
+//! | --- | --- | --- |
+//! | larger | `mismatch_percent` | a constant offset |
+//! | higher: their patches that bear no load | `height_mismatch_percent` | an offset that depends on the voltage, above all where the sides pull in one after the other |
+//! | at a higher haptic voltage than the pad's | `source_mismatch_percent` | an offset that grows with the voltage |
+//!
+//! The first and the last are of electrodes that sense. With `senses = "each"` a pad has a slot for each of its parts: see `part`. The truth's direction is Δx over half the sheet's width, as the ratios of eq. 10 are. Source:
 //! docs/physics.md §4.
 
 use super::effect::{Effect, PadEffect};
@@ -36,7 +41,9 @@ const HEIGHT_MM: f64 = 5.0;
 
 pub(super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneError> {
     let Some(table) = root.table("halves")? else { return Ok(None) };
-    let Some(gap) = gap::read(root, device)? else {
+    let raised = table.number_or("height_mismatch_percent", Limits::within(-20.0, 20.0), 0.0)?;
+    let (left, right) = (gap::read_raised(root, device, 0.01 * raised)?, gap::read(root, device)?);
+    let (Some(left), Some(right)) = (left, right) else {
         return Err(table.error("", "expected [gap] too, which the push closes on one side"));
     };
     let mismatch = 0.01 * table.number_or("mismatch_percent", Limits::within(-50.0, 50.0), 0.0)?;
@@ -51,7 +58,8 @@ pub(super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneE
     let strips = read_strips(table, mismatch, device)?;
     let newton_per_g = device.weight_n(1.0);
     let build = move |setting: &Setting| {
-        let gaps = strips.iter().map(|_| gap.build(setting)).collect();
+        let side = |strip: &Strip| if strip.centre_mm[0] < 0.0 { &left } else { &right };
+        let gaps = strips.iter().map(|strip| side(strip).build(setting)).collect();
         let half_width_mm = 0.5 * setting.device.width_mm;
         Effect::Pad(Box::new(SplitElectrode {
             gaps,
@@ -79,6 +87,8 @@ pub(super) fn read_strips(
     mismatch: f64,
     device: &Device,
 ) -> Result<Vec<Strip>, SceneError> {
+    let source = table.number_or("source_mismatch_percent", Limits::within(-50.0, 50.0), 0.0)?;
+    let left_source_share = 1.0 + 0.01 * source;
     if table.flag("quadrants")? {
         if let Some(key) = ["strips", "outer_share_percent", "sensing_v_rms"]
             .into_iter()
@@ -86,7 +96,7 @@ pub(super) fn read_strips(
         {
             return Err(table.error(key, "expected none with quadrants, which all sense and brake"));
         }
-        return Ok(quadrants(0.5 * device.pad_diameter_mm, mismatch));
+        return Ok(quadrants(0.5 * device.pad_diameter_mm, mismatch, left_source_share));
     }
     let strips = table.whole("strips", 2, 4)?.unwrap_or(2);
     if strips == 3 {
@@ -108,6 +118,7 @@ pub(super) fn read_strips(
         electrode: Electrode {
             lean_per_mm: [side * sides[n][1] / mean_square_mm2, 0.0],
             reach_mm: mean_square_mm2 / outer_mm,
+            source_share: if n == 0 && side < 0.0 { left_source_share } else { 1.0 },
             most_v_rms: if n == 0 { sensing_v_rms } else { f64::INFINITY },
             ..Electrode::WHOLE
         },
@@ -117,7 +128,7 @@ pub(super) fn read_strips(
 }
 
 /// The quadrants of a disc, whose centres are 4r/3π off its own along either axis.
-fn quadrants(radius_mm: f64, mismatch: f64) -> Vec<Strip> {
+fn quadrants(radius_mm: f64, mismatch: f64, left_source_share: f64) -> Vec<Strip> {
     let centre_mm = 4.0 * radius_mm / (3.0 * std::f64::consts::PI);
     let quadrant = |[x, y]: [f64; 2]| Strip {
         area: 0.25 * (1.0 - 0.5 * x * mismatch),
@@ -125,6 +136,7 @@ fn quadrants(radius_mm: f64, mismatch: f64) -> Vec<Strip> {
         electrode: Electrode {
             lean_per_mm: [x / centre_mm, y / centre_mm],
             reach_mm: centre_mm,
+            source_share: if x < 0.0 { left_source_share } else { 1.0 },
             ..Electrode::WHOLE
         },
     };

@@ -76,6 +76,8 @@ const KEYS: &[(&str, &[(&str, &str)])] = &[
     ("gap.spring_pa_per_m", &[]),
     ("gap.step_us", &[("gap.rung", "\"tr-bdf2\"")]),
     ("halves.mismatch_percent", &[("halves", "{}")]),
+    ("halves.height_mismatch_percent", &[("halves", "{}")]),
+    ("halves.source_mismatch_percent", &[("halves", "{}")]),
     ("halves.push_height_mm", &[("halves", "{}"), ("hand", "{}")]),
     ("halves.sensing_v_rms", &[("halves", "{ strips = 4 }")]),
     ("hand.stiffness_n_per_m", &[("hand", "{}")]),

@@ -15,6 +15,7 @@ mod moving;
 mod panel;
 mod pay;
 mod plant;
+mod pull_in;
 mod release;
 mod sensor;
 mod split;

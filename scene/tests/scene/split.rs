@@ -144,3 +144,60 @@ fn a_timeline_leads_from_point_to_point() {
         assert!((x_mm - expected).abs() < 1e-9 && y_mm == 7.0, "{time_s}: {x_mm}");
     }
 }
+
+/// What halves that differ read without a push, mm, at 100 g.
+fn offset_mm(halves: &str, volts: f64) -> f64 {
+    let pad = format!("[[pad]]\nposition_mm = [0, 0]\nload_g = 100\nhaptic_v_rms = {volts}\n");
+    430.0 * last(&format!("{pad}[gap]\n[halves]\n{halves}\n")).direction
+}
+
+/// docs/physics.md §4: the paper's offset that depends on the voltage.
+#[test]
+fn halves_of_unequal_height_read_an_offset_that_depends_on_the_voltage() {
+    for (percent, volts, expected_mm) in [
+        (2.0, 0.0, 0.0237),
+        (2.0, 200.0, 0.0859),
+        (2.0, 300.0, 0.0164),
+        (5.0, 0.0, 0.0578),
+        (5.0, 200.0, 0.1319),
+        (5.0, 300.0, 0.3354),
+    ] {
+        let found_mm = offset_mm(&format!("height_mismatch_percent = {percent}"), volts);
+        assert!((found_mm - expected_mm).abs() < 1e-4, "{percent} %, {volts} V: {found_mm} mm");
+        let lower_mm = offset_mm(&format!("height_mismatch_percent = {}", -percent), volts);
+        assert!(lower_mm < 0.0, "{percent} %, {volts} V: {lower_mm} mm");
+    }
+}
+
+#[test]
+fn a_stronger_source_on_the_left_reads_as_a_push_to_the_left_under_voltage_only() {
+    let offset = |volts: f64| offset_mm("source_mismatch_percent = 2", volts);
+    assert_eq!(offset(0.0), 0.0);
+    let [low, high] = [offset(100.0), offset(250.0)];
+    assert!(low < 0.0 && high < 2.0 * low, "{low} {high} mm");
+    // Its left half is the one of a pad at 2 % more.
+    let pad = |volts: f64, halves: &str| {
+        let pad = format!("[[pad]]\nposition_mm = [0, 0]\nload_g = 100\nhaptic_v_rms = {volts}\n");
+        last(&format!("{pad}[gap]\n[halves]\n{halves}\n")).electrodes_pf
+    };
+    let [left, right, ..] = pad(250.0, "source_mismatch_percent = 2");
+    assert_eq!([left, right], [pad(255.0, "")[0], pad(250.0, "")[1]]);
+}
+
+/// A part of its own slot is at its own voltage.
+#[test]
+fn a_half_at_a_stronger_source_is_measured_at_its_voltage() {
+    let text = "[[pad]]\nposition_mm = [0, 0]\nload_g = 100\nhaptic_v_rms = 250\n[gap]\n[halves]\n\
+                senses = \"each\"\nsource_mismatch_percent = 2\n";
+    let mut plant = plant(text);
+    let volts = [0, 1].map(|slot| plant.truth(slot).haptic_v_rms);
+    assert!((volts[0] - 255.0).abs() < 1e-9 && volts[1] == 250.0, "{volts:?}");
+}
+
+#[test]
+fn heights_that_differ_need_patches_without_load() {
+    let text = "title = \"t\"\n[[pad]]\nposition_mm = [0, 0]\n[gap]\nrest_um = [19]\n[halves]\n\
+                height_mismatch_percent = 2\n";
+    let message = Scene::parse(text, "s.toml", &[]).unwrap_err().to_string();
+    assert!(message.contains("gap.load_shares: expected a patch that bears no load"), "{message}");
+}

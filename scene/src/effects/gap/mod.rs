@@ -32,7 +32,7 @@ mod read;
 mod read_rubber;
 mod rubber;
 
-pub(super) use read::read;
+pub(super) use read::{read, read_raised};
 
 #[cfg(test)]
 mod tests;

@@ -36,10 +36,23 @@ const LEVELS: [(&str, Motion, f64); 7] = [
 ];
 
 pub(in super::super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneError> {
+    read_raised(root, device, 0.0)
+}
+
+/// The same with patches that bear no load higher by a share of their heights.
+pub(in super::super) fn read_raised(
+    root: &Table,
+    device: &Device,
+    raised: f64,
+) -> Result<Option<Spec>, SceneError> {
     let Some(table) = root.table("gap")? else { return Ok(None) };
     let words = LEVELS.iter().map(|(word, ..)| *word).chain([MOVING.0]).collect::<Vec<_>>();
     let named = table.choice("rung", &words)?;
-    let rubber = read_rubber(table, device)?;
+    let rubber = read_rubber(table, device)?.raised(raised);
+    if raised != 0.0 && rubber.patches.iter().all(|patch| patch.load_share > 0.0) {
+        let message = "expected a patch that bears no load, with halves.height_mismatch_percent, which raises these";
+        return Err(table.error("load_shares", message));
+    }
     let sine = table.choice("drive", &["rms", "sine"])? == Some("sine");
     if sine && device.haptic_wave != HapticWave::Sine {
         let got = device.haptic_wave.name();

@@ -26,6 +26,15 @@ impl Rubber {
         Rubber { law, patches, areas_m2, pa_per_g, fitted_pa_per_m }
     }
 
+    /// The same rubber with patches that bear no load higher by a share of their heights; none reaches the film.
+    pub fn raised(mut self, share: f64) -> Self {
+        for patch in self.patches.iter_mut().filter(|patch| patch.load_share == 0.0) {
+            let raised_m = patch.rest_m + share * (patch.rest_m + self.law.insulator_m);
+            patch.rest_m = raised_m.max(0.0);
+        }
+        self
+    }
+
     /// The same rubber with springs so much as stiff as they were fitted.
     pub fn stiffen(&mut self, stiffness: f64) {
         self.law.spring_pa_per_m = stiffness * self.fitted_pa_per_m;
