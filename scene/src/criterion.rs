@@ -8,6 +8,7 @@
 //! of = "force_n"                  # see `Quantity`
 //! limit = 0.1                     # the measure must be at most this
 //! expected = 343                  # with max_off, mean_off, jump_off and departure_off: what it should be
+//! departure_percent = 15          # with departure_off: how much more than by its law is a departure; 25
 //! with = "load_g"                 # with increases_with and nonlinearity_percent
 //! case = "rest"                   # or cases = ["a", "b"]; all cases where absent
 //! per = "group"                   # case | group: taken over each, the worst counts
@@ -17,6 +18,9 @@
 use crate::error::SceneError;
 use crate::format::{Limits, Table};
 use crate::quantity::Quantity;
+
+/// How much more than by its law a quantity must be, percent, where the scene does not say it.
+const DEPARTURE_PERCENT: f64 = 25.0;
 
 /// What a criterion measures over the slots that it covers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -55,7 +59,7 @@ pub enum Measure {
     /// rises most above that of the seven before, by five times its mean change at least.
     JumpOff,
     /// How far from the expected haptic voltage the estimate leaves its law at low voltages: where
-    /// it first is a quarter more than up to 100 V. A force goes with the square of the voltage, so
+    /// it first is `departure_percent` more than up to 100 V. A force goes with the square of the voltage, so
     /// that is per volt squared; any other quantity does not depend on it.
     DepartureOff,
 }
@@ -171,6 +175,8 @@ pub struct Criterion {
     /// For [`Measure::MaxOff`], [`Measure::MeanOff`], [`Measure::JumpOff`] and [`Measure::DepartureOff`]: the value, the
     /// time, s, or the haptic voltage, V rms, that is expected.
     pub expected: Option<f64>,
+    /// For [`Measure::DepartureOff`]: how much more than by its law is a departure, percent.
+    pub departure_percent: f64,
     /// Names of the cases it covers; all where empty.
     pub cases: Vec<String>,
     /// Over what the measure is taken.
@@ -199,7 +205,14 @@ impl Criterion {
             let message = format!("expected \"force_n\" with measure = {:?}", measure.name());
             return Err(table.error("of", message));
         }
+        let departs = measure == Measure::DepartureOff;
+        if !departs && table.get("departure_percent").is_some() {
+            let message = "expected with measure = \"departure_off\", and only there";
+            return Err(table.error("departure_percent", message));
+        }
+        let percents = Limits::above(0.0, 1e4);
         Ok(Criterion {
+            departure_percent: table.number_or("departure_percent", percents, DEPARTURE_PERCENT)?,
             name: table.require("name", "text", table.text("name")?)?,
             measure,
             of,

@@ -13,8 +13,7 @@
 //! µm (docs/physics.md §4).
 //!
 //! Without the table the force is μ·ΣF_e too, of the nominal μ, and no friction acts on the pad. Without `[gap]`
-//! that is eq. 8 with the true capacitance and voltage. μ is `device.mu`: 0.12, or 0.065 where the loop has to agree with the paper's K
-//! = 600. The haptic force is what friction can do because of the voltage, whether the pad slides
+//! that is eq. 8 with the true capacitance and voltage. μ is `device.mu`, 0.12 unless the scene says otherwise. The haptic force is what friction can do because of the voltage, whether the pad slides
 //! or sticks; how much it does is the truth's `friction_n`, by `coulomb` as if the pad slid. With `[hand]` the pad lags behind its
 //! trajectory; a step is `step_us`, 100 µs. Source: docs/physics.md §3, §4.
 
