@@ -3,7 +3,7 @@
 //! was calibrated: the film resists more, or less, and the rubber is stiffer, or softer.
 //!
 //!   R_s(x, y) = R_s·[1 + α·(ΔT + g_x·x/width + g_y·y/height)]      (x and y from the sheet's middle)
-//!   κ = κ·(1 + β·ΔT), k₁ likewise
+//!   κ = κ·(1 + β·ΔT)
 //!
 //! ```toml
 //! [temperature]

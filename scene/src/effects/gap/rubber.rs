@@ -71,19 +71,30 @@ pub(super) fn at_rest(law: &Law, patch: Patch, gap_m: f64) -> State {
     State { gap_m, speed_m_s: 0.0, crept_pa: law.rubber(gap_m, patch.rest_m).value }
 }
 
-/// The voltage at a pad whose capacitance rises with it: behind a supply the voltage falls as the
-/// capacitance rises, so that there is one that agrees, found by halving.
+/// The voltage at a pad whose capacitance rises with it. Behind a supply the voltage falls as the
+/// capacitance rises, so that what the source leaves beyond a voltage falls by at least 1 V per volt: one
+/// voltage agrees, or the pad pulls in there. Secants within a bracket, which is halved where a secant
+/// shortens it by less.
 pub(super) fn agreed_v(
     source_v: f64,
     supply: Option<Supply>,
     capacitance_f: impl Fn(f64) -> f64,
 ) -> f64 {
     let Some(supply) = supply else { return source_v };
-    let (mut low, mut high) = (0.0, source_v);
-    while high - low > 1e-12 * source_v {
-        let middle = 0.5 * (low + high);
-        let agreed = source_v * supply.share(capacitance_f(middle));
-        *(if agreed > middle { &mut low } else { &mut high }) = middle;
+    let beyond = |volt: f64| source_v * supply.share(capacitance_f(volt)) - volt;
+    let tolerance_v = 1e-12 * source_v;
+    let [mut low, mut high] = [0.0, source_v].map(|volt| (volt, beyond(volt)));
+    let mut halves = false;
+    while high.0 - low.0 > tolerance_v {
+        let share = if halves { 0.5 } else { low.1 / (low.1 - high.1) };
+        let volt = low.0 + share * (high.0 - low.0);
+        let at = (volt, beyond(volt));
+        if at.1.abs() <= tolerance_v {
+            return volt;
+        }
+        let before_v = high.0 - low.0;
+        *(if at.1 > 0.0 { &mut low } else { &mut high }) = at;
+        halves = high.0 - low.0 > 0.5 * before_v;
     }
-    high
+    high.0
 }
