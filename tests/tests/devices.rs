@@ -187,7 +187,7 @@ fn a_case_after_others_has_the_calibration_that_it_has_alone() {
             ("another pad", "\"device.pad_diameter_mm\" = 40"),
             ("another film", "\"sheet.slope_percent\" = [5, 0]"),
             ("another friction", "\"device.mu\" = 0.2"),
-            ("another rubber", "\"gap.spring_pa_per_m\" = 4e8"),
+            ("another rubber", "\"gap.spring_pa_per_m\" = 3.6e7"),
             ("worn", "\"calibration.set\" = { \"device.mu\" = 0.3 }"),
         ]
         .map(|(name, set)| format!("[[case]]\nname = \"{name}\"\nset = {{ {set} }}\n"))

@@ -146,11 +146,11 @@ impl Device {
         let mut about =
             |nominal: f64, spread: f64| nominal * (1.0 + spread * (2.0 * rng.f64() - 1.0));
         let common = about(1.0, 0.04);
-        let heights = [13.0, 14.5, 16.0, 17.5, 19.07, 19.55, 26.0, 34.0];
+        let heights = [12.0, 26.4, 27.7, 29.3, 33.6, 38.191, 39.847, 55.0];
         Device {
             insulator_um: about(16.0, 0.06),
             mu: about(0.12, 0.2),
-            spring_pa_per_m: about(5e8, 0.1),
+            spring_pa_per_m: about(4.5e7, 0.1),
             contact_pa: about(2e5, 0.25),
             heights_um: heights.map(|um| about(common * um, 0.02)).to_vec(),
             loads_g: [about(50.0, 0.2), about(50.0, 0.2)],

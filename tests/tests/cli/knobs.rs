@@ -20,7 +20,7 @@ const KNOBS: [Knob; 6] = [
     Knob { name: "a tenth of the friction", set: &["device.mu=0.012"], of: "[[pad]]" },
     Knob { name: "2.5 times the friction", set: &["device.mu=0.3"], of: "[[pad]]" },
     Knob { name: "5 % more gain", set: &["sensor.gain_error_percent=5"], of: "[[pad]]" },
-    Knob { name: "ten times the spring", set: &["gap.spring_pa_per_m=5e9"], of: "[gap]" },
+    Knob { name: "ten times the spring", set: &["gap.spring_pa_per_m=4.5e8"], of: "[gap]" },
     Knob {
         name: "a terminal that opens after calibration",
         set: &["sheet.open=[1]", "calibration.set={\"sheet.open\"=false}"],

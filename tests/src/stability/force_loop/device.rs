@@ -60,10 +60,10 @@ fn at_rest(slots: &[Slot]) -> (f64, f64) {
 /// The plant differs from the plant that the loop was tuned for.
 pub fn plant_half_off() -> Outcome {
     const PLANTS: [(&str, Setting); 8] = [
-        ("friction +50 %", ("device.mu", "0.0975")),
-        ("friction −50 %", ("device.mu", "0.0325")),
-        ("spring +50 %", ("gap.spring_pa_per_m", "7.5e8")),
-        ("spring −50 %", ("gap.spring_pa_per_m", "2.5e8")),
+        ("friction +50 %", ("device.mu", "0.18")),
+        ("friction −50 %", ("device.mu", "0.06")),
+        ("spring +50 %", ("gap.spring_pa_per_m", "6.75e7")),
+        ("spring −50 %", ("gap.spring_pa_per_m", "2.25e7")),
         ("insulator +50 %", ("gap.insulator_um", "24")),
         ("insulator −50 %", ("gap.insulator_um", "8")),
         ("load +50 %", ("pad.0.load_g", "75")),
