@@ -38,42 +38,56 @@ pub(super) fn read_rubber(table: &Table, device: &Device) -> Result<Rubber, Scen
     let thickness_um = table.number_or("insulator_um", Limits::within(0.01, 1e4), 16.0)?;
     let permittivity = table.number_or("insulator_permittivity", Limits::within(1.0, 1e5), 3.2)?;
     let insulator_um = thickness_um / permittivity;
+    let rest_um = read_heights(table, insulator_um)?;
+    let shares = Shares::read(table, rest_um.len())?;
+    let law = read_law(table, insulator_um, device)?;
+    let rest_m = rest_um.iter().map(|um| 1e-6 * (um - insulator_um));
+    let patch = |(rest_m, load_share): (f64, &f64)| Patch { rest_m, load_share: *load_share };
+    let patches = rest_m.zip(&shares.load).map(patch).collect();
+    let areas_m2 = shares.area.iter().map(|share| share * device.pad_area_m2).collect();
+    Ok(Rubber::new(law, patches, areas_m2, device.weight_n(1.0) / device.pad_area_m2))
+}
+
+/// g₀ + d of the patches, above the insulators.
+fn read_heights(table: &Table, insulator_um: f64) -> Result<Vec<f64>, SceneError> {
     let heights = Limits::above(insulator_um, 1e4);
     let rest_um = table.numbers("rest_um", heights)?.unwrap_or(REST_UM.to_vec());
-    if let Some(height) = rest_um.iter().find(|height| !heights.holds(**height)) {
-        let message = format!(
-            "expected insulators that are thinner than air by permittivity than the lowest patch, {height} µm \
-             above the film, got {insulator_um} µm; set gap.rest_um, too"
-        );
-        return Err(table.error("insulator_um", message));
-    }
-    let shares = Shares::read(table, rest_um.len())?;
-    let contact_decay_um = table.number_or("contact_decay_um", Limits::within(1e-3, 1e3), 1.25)?;
-    if contact_decay_um > 0.5 * insulator_um {
-        let message = format!(
-            "expected at most half of the insulators' {insulator_um} µm of air, beyond which contact and attraction \
-             balance at several gaps, got {contact_decay_um}; set gap.insulator_um, too"
-        );
-        return Err(table.error("contact_decay_um", message));
-    }
+    let Some(height) = rest_um.iter().find(|height| !heights.holds(**height)) else {
+        return Ok(rest_um);
+    };
+    let message = format!(
+        "expected insulators that are thinner than air by permittivity than the lowest patch, {height} µm \
+         above the film, got {insulator_um} µm; set gap.rest_um, too"
+    );
+    Err(table.error("insulator_um", message))
+}
+
+fn read_law(table: &Table, insulator_um: f64, device: &Device) -> Result<Law, SceneError> {
     let film_pa_s = table.number_or("film_pa_s", Limits::within(1e-9, 1e3), AIR_PA_S)?;
     let film_area_share = table.number_or("film_area_share", Limits::within(1e-6, 10.0), 0.4)?;
-    let law = Law {
+    Ok(Law {
         spring_pa_per_m: table.number_or("spring_pa_per_m", Limits::within(1e3, 1e15), 4.5e7)?,
         contact_pa: table.number_or("contact_pa", Limits::within(0.0, 1e10), 2e5)?,
-        contact_decay_m: 1e-6 * contact_decay_um,
+        contact_decay_m: 1e-6 * read_contact_decay_um(table, insulator_um)?,
         creep_share: table.number_or("creep_share", Limits::within(0.0, 1e4), 0.6)?,
         creep_s: table.number_or("creep_s", Limits::within(1e-6, 1e6), 1.5)?,
         insulator_m: 1e-6 * insulator_um,
         film_n_s: 1.5 * film_pa_s * film_area_share * device.pad_area_m2 / PI,
         film_rest_m: 1e-6 * table.number_or("film_rest_um", Limits::within(1e-3, 1e3), 0.7)?,
         inertia_kg_m2: table.number_or("inertia_kg_m2", Limits::within(1e-3, 1e6), 7.0)?,
-    };
-    let rest_m = rest_um.iter().map(|um| 1e-6 * (um - insulator_um));
-    let patch = |(rest_m, load_share): (f64, &f64)| Patch { rest_m, load_share: *load_share };
-    let patches = rest_m.zip(&shares.load).map(patch).collect();
-    let areas_m2 = shares.area.iter().map(|share| share * device.pad_area_m2).collect();
-    Ok(Rubber::new(law, patches, areas_m2, device.weight_n(1.0) / device.pad_area_m2))
+    })
+}
+
+fn read_contact_decay_um(table: &Table, insulator_um: f64) -> Result<f64, SceneError> {
+    let decay_um = table.number_or("contact_decay_um", Limits::within(1e-3, 1e3), 1.25)?;
+    if decay_um <= 0.5 * insulator_um {
+        return Ok(decay_um);
+    }
+    let message = format!(
+        "expected at most half of the insulators' {insulator_um} µm of air, beyond which contact and attraction \
+         balance at several gaps, got {decay_um}; set gap.insulator_um, too"
+    );
+    Err(table.error("contact_decay_um", message))
 }
 
 /// What part of the pad's area each patch has, and what load per area it bears over the pad's.
