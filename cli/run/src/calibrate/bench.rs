@@ -247,7 +247,7 @@ mod tests {
         };
         let alone = forces_n("[gap]\n");
         assert_eq!(alone, forces_n("[gap]\n[friction]\n"));
-        assert!((alone[1] - 0.418).abs() < 0.001, "{alone:?}"); // docs/physics.md §3
+        assert!((alone[1] - 0.2560).abs() < 0.0005, "{alone:?}"); // docs/physics.md §3
     }
 
     #[test]
