@@ -56,7 +56,10 @@ fn jumps_s(drive: &str, [sixth, seventh]: [f64; 2]) -> Result<Vec<f64>, SceneErr
     let text = format!(
         "title = \"Fig. 7\"\nduration_s = 3.5\n[[pad]]\nposition_mm = [0, 0]\nload_g = 50\n\
          haptic_v_rms = 350\n[supply]\n[carrier]\nhaptic_hz = 200\n[gap]\nrung = \"tr-bdf2\"\n\
-         drive = \"{drive}\"\nrest_um = [12, 26.4, 27.7, 29.3, 33.6, {sixth}, {seventh}, 55]\n"
+         drive = \"{drive}\"\nrest_um = [12, 26.4, 27.7, 29.3, 33.6, {sixth}, {seventh}, 55]\n\
+         area_shares = [0.365, 0.11, 0.065, 0.04, 0.025, 0.1, 0.1, 0.195]\n\
+         load_shares = [{crests}, 0, 0, 0, 0, 0, 0, 0]\n",
+        crests = 1.0 / 0.365
     );
     let timing = Timing {
         pads: 1,

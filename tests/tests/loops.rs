@@ -176,11 +176,14 @@ impl Device {
             scene,
             "[device]\nmu = {mu:?}\n[sheet]\n[gap]\ninsulator_um = {insulator_um:?}\n\
              insulator_permittivity = 3.2\nspring_pa_per_m = {spring_pa_per_m:?}\ncontact_pa = {contact_pa:?}\n\
-             rest_um = {heights_um:?}\n[friction]\n[carrier]\nrung = \"samples\"\nhaptic_wave = \"square\"\n[sensor]\n\
+             rest_um = {heights_um:?}\n\
+             area_shares = [0.365, 0.11, 0.065, 0.04, 0.025, 0.1, 0.1, 0.195]\n\
+             load_shares = [{}, 0, 0, 0, 0, 0, 0, 0]\n[friction]\n[carrier]\nrung = \"samples\"\nhaptic_wave = \"square\"\n[sensor]\n\
              gain_error_percent = 0\n[control]\n\
              [calibration]\nset = {{ \"device.mu\" = {mu:?}, \"gap.insulator_um\" = {insulator_um:?}, \
              \"gap.insulator_permittivity\" = 3.2, \"gap.spring_pa_per_m\" = {spring_pa_per_m:?}, \
-             \"sensor.gain_error_percent\" = 0 }}\n"
+             \"sensor.gain_error_percent\" = 0 }}\n",
+            1.0 / 0.365
         );
         scene
     }

@@ -565,13 +565,18 @@ fn shares_of_the_pad_that_cannot_be_name_their_key() {
     let gap = |keys: &str, expected: &str| check(&format!("[gap]\n{keys}"), expected);
     gap(
         "rest_um = [12, 30]",
-        "s.toml:4: gap.area_shares: expected 2 numbers, one for each height of gap.rest_um, got 8, as many as by \
-         default; set gap.area_shares",
+        "s.toml:4: gap.area_shares: expected 2 numbers, one for each height of gap.rest_um, got none, and the \
+         default shares are for the default heights only; set gap.area_shares",
     );
     gap(
         "rest_um = [12, 30]\narea_shares = [0.4, 0.6]",
-        "s.toml:4: gap.load_shares: expected 2 numbers, one for each height of gap.rest_um, got 8, as many as by \
-         default; set gap.load_shares",
+        "s.toml:4: gap.load_shares: expected 2 numbers, one for each height of gap.rest_um, got none, and the \
+         default shares are for the default heights only; set gap.load_shares",
+    );
+    gap(
+        "rest_um = [13, 14.5, 16, 17.5, 19.0664, 19.5503, 26, 34]",
+        "s.toml:4: gap.area_shares: expected 8 numbers, one for each height of gap.rest_um, got none, and the default \
+         shares are for the default heights only; set gap.area_shares",
     );
     gap(
         "area_shares = [0.4, 0.6]",

@@ -8,7 +8,8 @@
 //! load_shares = [2.5, 0, 0]       # load per area over the pad's; each times its area share, their sum 1
 //! ```
 //!
-//! The defaults are a device that shows what the paper says (docs/physics.md §3). A single height needs no shares.
+//! The defaults are a device that shows what the paper says (docs/physics.md §3). A single height needs no shares. Other
+//! heights need shares of their own: which patches are crests and which spots is part of the device.
 
 use std::f64::consts::PI;
 
@@ -39,7 +40,7 @@ pub(super) fn read_rubber(table: &Table, device: &Device) -> Result<Rubber, Scen
     let permittivity = table.number_or("insulator_permittivity", Limits::within(1.0, 1e5), 3.2)?;
     let insulator_um = thickness_um / permittivity;
     let rest_um = read_heights(table, insulator_um)?;
-    let shares = Shares::read(table, rest_um.len())?;
+    let shares = Shares::read(table, &rest_um)?;
     let law = read_law(table, insulator_um, device)?;
     let rest_m = rest_um.iter().map(|um| 1e-6 * (um - insulator_um));
     let patch = |(rest_m, load_share): (f64, &f64)| Patch { rest_m, load_share: *load_share };
@@ -97,19 +98,31 @@ struct Shares {
 }
 
 impl Shares {
-    /// Reads a share of either kind for each height; a single patch needs none.
-    fn read(table: &Table, heights: usize) -> Result<Shares, SceneError> {
-        let usual = |of_eight: [f64; 8]| if heights == 1 { vec![1.0] } else { of_eight.to_vec() };
+    /// Reads a share of either kind for each height. A single patch needs none; the default ones are for the default
+    /// heights.
+    fn read(table: &Table, rest_um: &[f64]) -> Result<Shares, SceneError> {
+        let usual = |of_eight: [f64; 8]| match rest_um {
+            [_] => Some(vec![1.0]),
+            heights => (heights == REST_UM).then(|| of_eight.to_vec()),
+        };
+        let heights = rest_um.len();
         let read = |key: &'static str, limits, of_eight| {
-            let shares = table.numbers(key, limits)?.unwrap_or_else(|| usual(of_eight));
-            let got = shares.len();
-            let message = || {
-                let of = if table.get(key).is_some() { "" } else { ", as many as by default" };
-                format!(
-                    "expected {heights} numbers, one for each height of gap.rest_um, got {got}{of}; set gap.{key}"
-                )
+            let message = |got: &str| {
+                format!("expected {heights} numbers, one for each height of gap.rest_um, got {got}")
             };
-            if got == heights { Ok(shares) } else { Err(table.error(key, message())) }
+            let shares = match table.numbers(key, limits)? {
+                Some(shares) => shares,
+                None => usual(of_eight).ok_or_else(|| {
+                    let got = "none, and the default shares are for the default heights only";
+                    table.error(key, message(&format!("{got}; set gap.{key}")))
+                })?,
+            };
+            let got = shares.len();
+            if got == heights {
+                Ok(shares)
+            } else {
+                Err(table.error(key, message(&got.to_string())))
+            }
         };
         let mut area = read("area_shares", Limits::above(0.0, 1.0), AREA_SHARES)?;
         let mut load = read("load_shares", Limits::within(0.0, 1e6), LOAD_SHARES)?;
