@@ -19,8 +19,9 @@ use crate::record::{Driven, Row};
 /// How long a state lasts before a frame says so: longer than a gap takes to close.
 const HELD_S: f64 = 0.04;
 const HELD: usize = 6;
-/// A force is short of its target by more than this part of it, and this many N.
-const SHORT: f64 = 0.05;
+/// A force is short of its target by more than this part of it, and this many N. Eq. 8 alone reads up to 9 % low on random
+/// devices at 0.3 to 0.4 N, where the true force lacks 4 % at most.
+const SHORT: f64 = 0.12;
 const SHORT_N: f64 = 0.005;
 /// How near to a limit a drive is at it.
 const NEAR: f64 = 0.003;
