@@ -32,6 +32,10 @@ fn a_wall_with_split_drive_hardly_sticks() {
     assert!(a.peak_n > 0.7, "and it holds: {a:?}");
 }
 
+/// What a hand feels of B while it leaves slowly, N. The rubber's creep keeps a part of the push: u stays with it until the
+/// hand pulls with some tenths of a newton.
+const SLOW_PEAK_B_N: f64 = 0.19;
+
 /// The block in the words of the smallest profile costs next to nothing.
 #[test]
 fn the_block_is_felt_as_the_rule_is() {
@@ -39,18 +43,20 @@ fn the_block_is_felt_as_the_rule_is() {
     assert!(a.sticking_n <= 0.03 && a.slow_peak_n <= 0.08 && a.release_p95_ms <= 90.0, "{a:?}");
     assert!(a.vanished_ms <= 2.0 && a.excess_flips <= 6.0, "{a:?}");
     let b = felt(Kind::SmallB);
-    assert!(b.sticking_n <= 0.06 && b.worst_n <= 0.26 && b.slow_peak_n <= 0.17, "{b:?}");
+    assert!(b.sticking_n <= 0.06 && b.worst_n <= 0.26, "{b:?}");
+    assert!(b.slow_peak_n <= SLOW_PEAK_B_N, "{b:?}");
     assert!(b.release_p95_ms <= 280.0 && b.vanished_ms <= 6.0 && b.excess_flips <= 6.0, "{b:?}");
 }
 
-/// Halves that sense and brake: what pulled in under the push hides its end. The wall of eq. 11
+/// Halves that sense and brake: what the rubber's creep keeps of the push hides its end. The wall of eq. 11
 /// sticks wholly, the fused rule in part, rule B less.
 #[test]
 fn rules_on_two_halves_stick_in_the_order_of_what_they_know() {
     let [eq11, fused, b, known] = [Kind::Eq11, Kind::Fused, Kind::B, Kind::True].map(felt);
     assert!(eq11.sticking_n > 2.0 * fused.sticking_n && fused.sticking_n > 2.0 * b.sticking_n);
     assert!(b.sticking_n > 10.0 * known.sticking_n, "{b:?} {known:?}");
-    assert!(b.sticking_n <= 0.06 && b.worst_n <= 0.26 && b.slow_peak_n <= 0.17, "{b:?}");
+    assert!(b.sticking_n <= 0.06 && b.worst_n <= 0.26, "{b:?}");
+    assert!(b.slow_peak_n <= SLOW_PEAK_B_N, "{b:?}");
     assert!(b.release_ms <= 35.0 && b.release_p95_ms <= 280.0 && b.vanished_ms <= 6.0, "{b:?}");
     assert!(b.excess_flips <= 5.0 && b.peak_n > 0.7, "{b:?}");
 }

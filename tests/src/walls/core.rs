@@ -41,7 +41,7 @@ impl InCore {
             "seed = {seed}\n{}\
              [sheet]\n[carrier]\nrung = \"samples\"\nhaptic_wave = \"square\"\n[sensor]\n\
              haptic_full_scale_v = 600\nnoise_ppm_rms = {noise_ppm}\nquantisation_bits = 18\n\
-             [control]\nrail_v = 400\nnominal_load_g = 80\n\
+             [control]\nrail_v = 500\nnominal_load_g = 80\n\
              [wall]\nstiffness_n_per_mm = {n_per_mm}\nplay_mm = {play_mm}\n",
             scene_of(*pad, hand, mismatch_percent, "senses = \"each\"\n")
         );

@@ -15,8 +15,8 @@ use hapticore_scene::{Plant, Scene, Timing, Truth};
 
 use super::hand::Hand;
 
-/// What the amplifier gives, V rms.
-pub const MOST_V: f64 = 400.0;
+/// What the amplifier gives, V rms: 1 N takes 475 V of the default device (docs/physics.md §3).
+pub const MOST_V: f64 = 500.0;
 /// Nominal load, N.
 const NOMINAL_N: f64 = 0.8;
 /// What a push at this height does to the pad's gap, mm: not given by the paper.

@@ -139,8 +139,8 @@ impl Setup {
         let stiffness = Stiffness { n_per_mm: self.n_per_mm, most_n: 1.0 };
         // What a device reads when it leaves the factory: left C·(1 + m/2), right C·(1 − m/2).
         let factory = -0.005 * self.mismatch_percent;
-        // Eq. 11 reaches half a newton at the depth at which the linear wall does.
-        let eq11 = Eq11 { v_per_mm: 325.0 * self.n_per_mm / 0.5, most_v: MOST_V };
+        // Eq. 11 reaches half a newton, which takes 370 V, at the depth at which the linear wall does.
+        let eq11 = Eq11 { v_per_mm: 370.0 * self.n_per_mm / 0.5, most_v: MOST_V };
         Judge::Reads(match self.kind {
             Kind::Eq11 => Box::new(eq11),
             Kind::Eq12 => Box::new(Eq12 { wall: eq11, inwards: -1.0, last: 0.0 }),
