@@ -52,7 +52,10 @@ pub const LAWS: [Law; 7] = [
         ],
     },
     Law { name: "inverse", set: &[("law", "inverse")] },
-    Law { name: "inverse, force table", set: &[("law", "inverse"), ("force", "table")] },
+    Law {
+        name: "inverse, force table",
+        set: &[("law", "inverse"), ("force", "table"), ("curve_factor", "1.2")],
+    },
 ];
 
 /// How a core divides its time, in samples of 1 µs.
