@@ -13,7 +13,11 @@ use std::sync::Arc;
 /// A scene whose sensors round nothing, and `standard` with the controller that it needs.
 fn scene(name: &str) -> (Arc<Scene>, Profile) {
     let rounded = inputs::scene(name, &[]).expect("bundled");
-    let finer = unrounded(&rounded.cases[case_of(&rounded)]).expect("a document");
+    let mut finer = unrounded(&rounded.cases[case_of(&rounded)]).expect("a document");
+    if rounded.cases[case_of(&rounded)].control.is_some() {
+        // At its limit a drive is a word of the curve, whatever the others are.
+        finer.push(("control.curve_factor".into(), "1.5".into()));
+    }
     let scene = inputs::scene(name, &finer).expect("bundled");
     let profile = Profile::bundled("standard").expect("bundled");
     let profile = controlled(profile, [&scene.cases[case_of(&scene)]]);

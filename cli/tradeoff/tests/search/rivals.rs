@@ -41,7 +41,8 @@ pub fn integer_program(model: &Model, limits: &Limits) -> Option<f64> {
     let mut choices = Vec::new();
     for (at, range) in ranges.iter().enumerate() {
         let mut one = Expression::from(0.0);
-        for bits in range[0]..=range[1] {
+        // None chosen is the longest word: without it among the choices the solver's basis stays regular.
+        for bits in range[0]..range[1] {
             let mut changed = base.clone();
             changed[at] = bits;
             // Left out: what no length of the others makes good, up to 4^16 times the limit.
@@ -56,7 +57,7 @@ pub fn integer_program(model: &Model, limits: &Limits) -> Option<f64> {
                 *error += (more - square) * chosen;
             }
         }
-        choices.push(constraint!(one == 1));
+        choices.push(constraint!(one <= 1));
     }
     let mut problem = variables.minimise(cost.clone()).using(good_lp::microlp);
     for choice in choices {
@@ -67,7 +68,9 @@ pub fn integer_program(model: &Model, limits: &Limits) -> Option<f64> {
             problem = problem.with(constraint!(error * (1.0 / (most * most)) <= 1.0));
         }
     }
-    Some(problem.solve().ok()?.eval(cost))
+    let solved = problem.solve();
+    eprintln!("{:?} {limits:?} {squares:?} {}", solved.as_ref().err(), ranges.len());
+    Some(solved.ok()?.eval(cost))
 }
 
 /// From the shortest words on, the bit is added that brings the errors down most for its area.
