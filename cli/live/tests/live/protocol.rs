@@ -105,7 +105,7 @@ fn a_hello_says_what_a_page_needs() {
     assert_eq!(hello["pads"][0]["parts_mm"], serde_json::json!([[-7.5, 0.0], [7.5, 0.0]]));
     assert_eq!(hello["walls"][0]["axis"], "x");
     assert_eq!(hello["walls"][0]["inside"], "below");
-    assert_eq!(hello["limits"]["rail_v"], 400.0);
+    assert_eq!(hello["limits"]["rail_v"], 500.0);
     assert_eq!(hello["command"], "hapticore simulate peg");
     assert_eq!(hello["inputs"][0]["name"], "pad.load_g");
     assert_eq!(hello["inputs"][0]["value"], 60.0);

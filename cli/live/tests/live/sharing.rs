@@ -263,7 +263,9 @@ fn preset_hold_keeps_the_force_under_any_load() {
         assert!((force_n - 0.3).abs() < 0.03, "{load_g} g: {force_n} N");
         drives.push(of_pad(&frames, "drive_v_rms", 0));
     }
-    assert!((drives[0] - drives[2]).abs() > 5.0, "the drive follows the load: {drives:?}");
+    // By little: what bears the load does not pull in, and under the lighter loads the drive is at its limit. By how much
+    // depends on how long the rubber has crept.
+    assert!((drives[0] - drives[2]).abs() > 2.0, "the drive follows the load: {drives:?}");
 }
 
 #[test]
