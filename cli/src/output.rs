@@ -7,24 +7,11 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
 use hapticore_files::AtomicFolder;
-use hapticore_host::{COLUMNS, QUANTITIES};
 use rayon::prelude::*;
 
 use crate::words::{is_left, is_of_words};
-use hapticore_run::record::{Driven, Record, Row, Truth};
-
-/// What a scene adds behind the truth: the case's name, the point of its sweep, and what no frame
-/// has.
-const OF_SCENE: [&str; 4] = ["case", "point", "true_load_g", "true_friction_n"];
-
-/// The last columns of a scene: one or zero.
-const TRUE_FLAGS: [&str; 2] = ["true_over_edge", "true_touching"];
-
-/// The last columns of a scene with walls.
-const WALLED: [&str; 3] = ["released", "true_hand_x_n", "true_haptic_friction_n"];
-
-/// The last columns of a scene with a controller.
-const DRIVEN: [&str; 4] = ["target_n", "drive_v_rms", "drive_limited", "drive_fault"];
+use hapticore_run::columns::{Columns, OfScene, Value};
+use hapticore_run::record::{Record, Row};
 
 /// Rows whose text a thread makes at a time.
 const AT_A_TIME: usize = 256;
@@ -120,20 +107,7 @@ fn is_of_waves(name: &str) -> bool {
 pub struct Frames {
     file: BufWriter<File>,
     path: PathBuf,
-    scene: Option<OfScene>,
-}
-
-/// What only the frames of a scene have.
-#[derive(Debug, Clone, Default)]
-pub struct OfScene {
-    /// The names of the cases.
-    pub cases: Vec<String>,
-    /// The keys of the pads that are swept.
-    pub swept: Vec<&'static str>,
-    /// Whether a controller drives the pads.
-    pub driven: bool,
-    /// Whether they meet walls.
-    pub walled: bool,
+    columns: Columns,
 }
 
 impl Frames {
@@ -145,28 +119,15 @@ impl Frames {
         let path = output.folder.path().join("frames.csv");
         let file = File::create(output.partial_path().join("frames.csv"))
             .with_context(|| path.display().to_string())?;
-        let mut frames = Frames { file: BufWriter::new(file), path, scene };
+        let columns = Columns::new(scene);
+        let mut frames = Frames { file: BufWriter::new(file), path, columns };
         frames.header().with_context(|| frames.path.display().to_string())?;
         Ok(frames)
     }
 
     fn header(&mut self) -> io::Result<()> {
-        write!(self.file, "{}", COLUMNS.join(","))?;
-        if let Some(scene) = &self.scene {
-            QUANTITIES
-                .iter()
-                .try_for_each(|quantity| write!(self.file, ",true_{}", quantity.name))?;
-            write!(self.file, ",{}", OF_SCENE.join(","))?;
-            scene.swept.iter().try_for_each(|name| write!(self.file, ",set_{name}"))?;
-            write!(self.file, ",{}", TRUE_FLAGS.join(","))?;
-            if scene.driven {
-                write!(self.file, ",{}", DRIVEN.join(","))?;
-            }
-            if scene.walled {
-                write!(self.file, ",{}", WALLED.join(","))?;
-            }
-        }
-        writeln!(self.file)
+        let names: Vec<_> = self.columns.iter().map(|column| column.name.as_str()).collect();
+        writeln!(self.file, "{}", names.join(","))
     }
 
     /// Writes a row.
@@ -174,7 +135,7 @@ impl Frames {
     /// # Errors
     /// It cannot be written.
     pub fn row(&mut self, row: &Row) -> Result<()> {
-        write_row(&mut self.file, row, self.scene.as_ref())
+        write_row(&mut self.file, row, &self.columns)
             .with_context(|| self.path.display().to_string())
     }
 
@@ -183,10 +144,10 @@ impl Frames {
     /// # Errors
     /// They cannot be written.
     pub fn rows(&mut self, rows: &[Row]) -> Result<()> {
-        let scene = self.scene.as_ref();
+        let columns = &self.columns;
         let text = |rows: &[Row]| {
             let mut text = Vec::new();
-            rows.iter().try_for_each(|row| write_row(&mut text, row, scene)).map(|()| text)
+            rows.iter().try_for_each(|row| write_row(&mut text, row, columns)).map(|()| text)
         };
         for rows in rows.chunks(AT_A_TIME * rayon::current_num_threads()) {
             let texts: io::Result<Vec<_>> = rows.par_chunks(AT_A_TIME).map(text).collect();
@@ -206,37 +167,19 @@ impl Frames {
     }
 }
 
-impl OfScene {
-    fn write(&self, file: &mut impl Write, case: usize, truth: &Truth) -> io::Result<()> {
-        truth.quantities.values().iter().try_for_each(|number| write!(file, ",{number}"))?;
-        let case = self.cases.get(case).map_or("", String::as_str);
-        write!(file, ",{},{},{},{}", field(case), truth.point, truth.load_g, truth.friction_n)?;
-        self.swept.iter().try_for_each(|name| write!(file, ",{}", truth.set.get(name)))?;
-        write!(file, ",{},{}", u8::from(truth.over_edge), u8::from(truth.touching))
-    }
-}
-
-fn write_row(file: &mut impl Write, row: &Row, scene: Option<&OfScene>) -> io::Result<()> {
-    write!(file, "{},{}", row.time_s, row.pad)?;
-    row.measured.values().iter().try_for_each(|number| write!(file, ",{number}"))?;
-    write!(file, ",{}", row.flags)?;
-    if let (Some(scene), Some(truth)) = (scene, &row.truth) {
-        scene.write(file, row.case, truth)?;
-        if scene.driven {
-            write_driven(file, &row.driven.unwrap_or_default())?;
+fn write_row(file: &mut impl Write, row: &Row, columns: &Columns) -> io::Result<()> {
+    for (index, column) in columns.iter().enumerate() {
+        if index > 0 {
+            write!(file, ",")?;
         }
-        if scene.walled {
-            let free = row.driven.and_then(|driven| driven.free).unwrap_or_default();
-            let Truth { hand_x_n, haptic_friction_n, .. } = truth;
-            write!(file, ",{},{hand_x_n},{haptic_friction_n}", u8::from(free))?;
+        match columns.value(column, row) {
+            Value::Number(number) => write!(file, "{number}")?,
+            Value::Index(index) => write!(file, "{index}")?,
+            Value::Flag(flag) => write!(file, "{}", u8::from(flag))?,
+            Value::Text(text) => write!(file, "{}", field(text))?,
         }
     }
     writeln!(file)
-}
-
-fn write_driven(file: &mut impl Write, driven: &Driven) -> io::Result<()> {
-    let Driven { target_n, drive_v_rms, limited, fault, .. } = driven;
-    write!(file, ",{target_n},{drive_v_rms},{},{}", u8::from(*limited), u8::from(*fault))
 }
 
 /// A text as a field of CSV.

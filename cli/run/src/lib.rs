@@ -12,6 +12,7 @@
 //! | [`maker`] | what a plant gives the core of its slots |
 //! | `prefetch` | slots generated on other threads, while the core works on those before |
 //! | [`case`] | a case of a scene, run |
+//! | [`simulation`], [`replay`] | a whole scene, a whole capture, and the record of it |
 //! | [`stepper`] | the same slot by slot, with inputs while it runs |
 //! | [`control`] | the force loop of a scene: controller, tuning, and what closes it |
 //! | [`criteria`] | what a scene claims, measured |
@@ -22,12 +23,13 @@
 //! | [`lab`] | a device's calibration from what a lab measured |
 //! | [`silent`] | what no check of a recording can see |
 //! | [`wiring`] | whether a recording's channels are the device's: sign, order, gain |
-//! | [`record`], [`provenance`] | what a run leaves, and where it comes from |
+//! | [`record`], [`columns`], [`provenance`] | what a run leaves, its rows as columns, and where it comes from |
 //! | [`interrupt`], [`number`] | stopping a run; numbers in messages |
 
 pub mod calibrate;
 pub mod capture;
 pub mod case;
+pub mod columns;
 pub mod control;
 pub mod criteria;
 pub mod digitiser;
@@ -44,8 +46,10 @@ pub mod number;
 mod prefetch;
 pub mod provenance;
 pub mod record;
+pub mod replay;
 pub mod session;
 pub mod silent;
+pub mod simulation;
 pub mod stepper;
 pub mod tuning_file;
 pub mod wiring;

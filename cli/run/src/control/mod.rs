@@ -6,6 +6,7 @@ pub mod bode;
 pub mod closed;
 mod gains;
 pub mod plant;
+pub mod prediction;
 pub mod stability;
 mod tuning;
 
