@@ -325,6 +325,15 @@ impl Case {
         Ok(session.with_cancellers(cancellers).with_directions(directions))
     }
 
+    /// The core of the case before its first slot, with the host's corrections and without its controller: for
+    /// samples from elsewhere.
+    ///
+    /// # Errors
+    /// A calibration that the profile cannot represent.
+    pub fn core(&self, options: Options) -> Result<Session> {
+        self.session(OfPlant::new(&self.plant()?), None, options)
+    }
+
     /// What makes the slots of a plant; `whole` with the samples of the blanking.
     pub(crate) fn maker(&self, plant: Plant, whole: bool) -> Maker {
         let sampled = self.scene.cases[self.index].sampled();

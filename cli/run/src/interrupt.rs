@@ -35,10 +35,21 @@ pub fn listen() {
     });
 }
 
+/// Asks all runs of this process to stop, where a program that holds them hears signals itself.
+pub fn request() {
+    REQUESTED.store(true, Ordering::Relaxed);
+}
+
+/// Lets later runs begin again.
+pub fn withdraw() {
+    REQUESTED.store(false, Ordering::Relaxed);
+    NOTICED.store(false, Ordering::Relaxed);
+}
+
 /// Whether to go on.
 ///
 /// # Errors
-/// After such a signal.
+/// After such a signal, or [`request`].
 pub fn check() -> Result<(), Interrupted> {
     if !REQUESTED.load(Ordering::Relaxed) {
         return Ok(());

@@ -5,11 +5,12 @@
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-use anyhow::{Result, ensure};
+use anyhow::{Result, bail, ensure};
 use hapticore_contract::calibration::Calibration;
 use hapticore_contract::control::{Drive, Surface, Tuning};
 use hapticore_contract::frame::Measurement;
 use hapticore_contract::profile::Profile;
+use hapticore_host::profile::serving;
 use hapticore_host::{CrosstalkCanceller, DeviceCalibration, ForceLaws, Readout, SlotClock};
 use hapticore_reference::Reference as FloatCore;
 
@@ -17,7 +18,11 @@ use crate::control::closed;
 use crate::direction::Directions;
 use crate::engine::{Engine, Fidelity, Signals, Slot, engine};
 use crate::errors::Errors;
+use crate::inputs::buildable;
 use crate::record::{Quantities, Reference, Row, SignalError, Truth};
+
+/// The most pads that are selected in turn.
+pub const MOST_PADS: u64 = 256;
 
 /// How a core is run on slots.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -57,6 +62,8 @@ pub struct Session {
     pads: usize,
     /// Codes of a slot's window, and of the whole slot.
     lengths: [usize; 2],
+    /// The least and the largest code of the ADC.
+    codes: [i64; 2],
     channels: usize,
     /// The core takes the samples of the blanking, too.
     takes_whole: bool,
@@ -96,10 +103,34 @@ impl Session {
             pads: profile.pads as usize,
             lengths: [profile.slot.integrate as usize, profile.slot.samples() as usize]
                 .map(|samples| samples * profile.channels()),
+            codes: [profile.formats.adc.min_code(), profile.formats.adc.max_code()]
+                .map(|code| code as i64),
             channels: profile.channels(),
             takes_whole: fidelity == Fidelity::Clock && tuning.is_none(),
             takes_phasors: fidelity != Fidelity::Clock,
         })
+    }
+
+    /// A core of the profile for a device that is recorded or read, not simulated; of `pads` pads, those of the
+    /// calibration where none is named.
+    ///
+    /// # Errors
+    /// A device that no core of the profile can serve, a calibration that it cannot represent, a number of pads out of
+    /// 1 to [`MOST_PADS`].
+    pub fn of_device(
+        profile: &Profile,
+        device: &DeviceCalibration,
+        pads: Option<u64>,
+        options: Options,
+    ) -> Result<(Session, Arc<Profile>)> {
+        let profile = buildable(device.profile(profile)?)?;
+        let pads = pads.unwrap_or(device.pads);
+        ensure!((1..=MOST_PADS).contains(&pads), "pads: expected 1 to {MOST_PADS}, got {pads}");
+        let profile = Arc::new(serving(&profile, pads as usize));
+        let clock = SlotClock::new(&profile, device.device.sample_rate_hz, 0.0);
+        let calibration = device.for_profile(&profile)?;
+        let session = Session::new(&profile, (device, &calibration), (options, None), (0, clock))?;
+        Ok((session, profile))
     }
 
     /// The same session, which takes out of its measurements, the core's and the reference's, what
@@ -123,7 +154,8 @@ impl Session {
     ///
     /// # Errors
     /// A slot that the core cannot take: of a pad that the profile does not serve, with other than one
-    /// code per channel and sample, with phasors at fidelity `clock`. The core stays as it was.
+    /// code per channel and sample, with a code that the ADC does not have, with phasors at fidelity `clock`.
+    /// The core stays as it was.
     pub fn slot(&mut self, slot: &Slot, truth: Option<Truth>) -> Result<Option<Row>> {
         self.check(slot)?;
         if let Some(errors) = &mut self.errors {
@@ -146,7 +178,11 @@ impl Session {
         self.finished(&measurement)
     }
 
-    fn check(&self, slot: &Slot) -> Result<()> {
+    /// Whether the core takes a slot.
+    ///
+    /// # Errors
+    /// As [`Session::slot`].
+    pub fn check(&self, slot: &Slot) -> Result<()> {
         self.check_pad(slot.pad)?;
         let [window, whole] = self.lengths;
         let (got, expected) = match &slot.signals {
@@ -161,6 +197,20 @@ impl Session {
             }
         };
         ensure!(got == expected, "slot: expected {expected} numbers, got {got}");
+        match &slot.signals {
+            Signals::Samples { codes, .. } => self.check_codes(codes),
+            Signals::Phasors { .. } => Ok(()),
+        }
+    }
+
+    fn check_codes(&self, codes: &[i32]) -> Result<()> {
+        let [least, most] = self.codes;
+        let ends = codes.iter().fold([0, 0], |[low, high], code| [low.min(*code), high.max(*code)]);
+        if let Some(code) =
+            ends.map(i64::from).into_iter().find(|code| !(least..=most).contains(code))
+        {
+            bail!("codes: expected {least} to {most}, the codes of the ADC, got {code}");
+        }
         Ok(())
     }
 

@@ -52,6 +52,7 @@ pub use input::{Input, InputError, RELEASE_S};
 /// ```
 pub struct Stepper {
     case: Case,
+    options: Options,
     source: Source,
     session: Session,
     limits: Option<Limits>,
@@ -124,6 +125,7 @@ impl Stepper {
         };
         Ok(Stepper {
             case,
+            options,
             source,
             session,
             limits,
@@ -133,6 +135,15 @@ impl Stepper {
             peak: 0.0,
             failed: None,
         })
+    }
+
+    /// The same case before its first slot, without an input. It shares what this one knows of the device.
+    ///
+    /// # Errors
+    /// As [`Stepper::new`].
+    pub fn restart(&self) -> Result<Stepper> {
+        let plant = self.case.plant()?;
+        Stepper::with_plant(self.case.clone(), plant, self.options, self.options.is_whole())
     }
 
     /// The case.

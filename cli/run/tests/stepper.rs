@@ -409,8 +409,17 @@ fn a_slot_that_the_core_cannot_take_is_refused_and_changes_nothing() {
                 Signals::Phasors { .. } => unreachable!("samples"),
             };
             let short = Signals::Samples { codes: codes[1..].to_vec(), blanking };
+            let beyond = |code: i128| {
+                let mut codes = codes.clone();
+                *codes.last_mut().expect("a code") = i32::try_from(code).expect("a code");
+                Signals::Samples { codes, blanking }
+            };
+            let adc = case.profile.formats.adc;
             let pad = number % pads;
             for wrong in [
+                Slot { pad, signals: beyond(adc.max_code() + 1) },
+                Slot { pad, signals: beyond(adc.min_code() - 1) },
+                Slot { pad, signals: beyond(i32::MIN.into()) },
                 Slot { pad: pads, signals: signals.clone() },
                 Slot { pad: 99, signals: signals.clone() },
                 Slot { pad, signals: short },
@@ -433,6 +442,34 @@ fn a_slot_that_the_core_cannot_take_is_refused_and_changes_nothing() {
     }
 }
 
+#[test]
+fn a_core_of_a_device_has_the_pads_that_are_asked_for() {
+    let profile = inputs::profile("small").unwrap();
+    let device = hapticore_run::calibrate::nominal(&profile).unwrap();
+    let pads = |pads| Session::of_device(&profile, &device, pads, FIXED);
+    assert_eq!(pads(Some(3)).unwrap().1.pads, 3);
+    assert_eq!(pads(None).unwrap().1.pads, device.pads);
+    for wrong in [0, 257, u64::MAX] {
+        let message = pads(Some(wrong)).err().expect("an error").to_string();
+        assert!(message.contains("expected 1 to 256"), "{message}");
+    }
+}
+
+#[test]
+fn the_core_of_a_case_gives_the_rows_of_the_case_on_its_codes() {
+    for name in ["hockey", "wall-2d"] {
+        let mut stepper = stepper(name, &[], FIXED);
+        let mut core = stepper.case().core(FIXED).unwrap();
+        for _ in 0..24 {
+            let row = stepper.step().unwrap().expect("a row");
+            let codes = stepper.codes().expect("samples").to_vec();
+            let signals = Signals::Samples { codes, blanking: 0 };
+            let alone = core.slot(&Slot { pad: row.pad, signals }, None).unwrap().expect("a row");
+            assert_eq!((row.measured, row.flags), (alone.measured, alone.flags), "{name}");
+        }
+    }
+}
+
 /// A core of clocks takes the pads in turn: whatever is not is an error, no panic.
 #[test]
 fn pads_out_of_turn_are_refused_where_the_core_counts_them() {
@@ -445,6 +482,19 @@ fn pads_out_of_turn_are_refused_where_the_core_counts_them() {
     let mut slot = |number, pad| Slot { pad, signals: maker.signals(number).0 };
     let taken: Vec<_> = [0, 2, 1].map(|pad| session.slot(&slot(pad, pad), None)).into();
     assert!(taken.iter().any(Result::is_err), "{taken:?}");
+}
+
+#[test]
+fn a_stepper_that_is_restarted_gives_its_first_rows_without_its_inputs() {
+    for (name, fidelity) in [("peg", Fidelity::Fixed), ("hockey", Fidelity::Clock)] {
+        let mut first = stepper(name, &[], Options { fidelity, ..FIXED });
+        let rows = step(&mut first, 40);
+        first.apply(&Input::Lead { pad: 0, to_mm: [5.0, 5.0], within_s: 0.01 }).unwrap();
+        step(&mut first, 40);
+        let mut again = first.restart().unwrap();
+        assert_eq!(again.slot(), 0);
+        assert_eq!(text_of(&step(&mut again, 40)), text_of(&rows), "{name}");
+    }
 }
 
 #[test]
