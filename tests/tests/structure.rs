@@ -83,6 +83,16 @@ const IMPORTS: [(&str, &[&str]); 19] = [
         ],
     ),
     (
+        "python",
+        &[
+            "hapticore-contract",
+            "hapticore-host",
+            "hapticore-live",
+            "hapticore-run",
+            "hapticore-scene",
+        ],
+    ),
+    (
         "cli",
         &[
             "hapticore-board",
@@ -250,7 +260,7 @@ fn the_model_knows_no_files_and_no_time() {
 
 #[test]
 fn every_source_names_its_licence() {
-    for folder in ["model", "rtl", "synth", "scene", "waveforms", "host", "cli", "tests"] {
+    for folder in ["model", "rtl", "synth", "scene", "waveforms", "host", "cli", "python", "tests"] {
         for path in sources(folder) {
             let text = fs::read_to_string(&path).expect("a source");
             assert!(

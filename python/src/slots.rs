@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A core that receives slots of ADC codes.
+
+use std::path::PathBuf;
+use std::sync::{Arc, Mutex};
+
+use anyhow::{Result, ensure};
+use hapticore_contract::profile::Profile;
+use hapticore_host::DeviceCalibration;
+use hapticore_run::calibrate;
+use hapticore_run::case::Case;
+use hapticore_run::columns::Columns;
+use hapticore_run::engine::{Fidelity, Signals, Slot};
+use hapticore_run::record;
+use hapticore_run::session::{Options, Session};
+use hapticore_run::simulation;
+use numpy::{PyReadonlyArray1, PyReadonlyArray3};
+use pyo3::prelude::*;
+
+use crate::apart::{apart, held};
+use crate::failure::{self, error, exception, fidelity};
+use crate::rows::Rows;
+
+/// A core with the calibration of a device.
+#[pyclass(frozen, module = "hapticore._core")]
+pub struct Slots {
+    session: Mutex<Session>,
+    profile: Arc<Profile>,
+    sample_rate_hz: f64,
+}
+
+impl Slots {
+    fn of_scene(
+        scene: &str,
+        set: &[(String, String)],
+        profile: Option<&str>,
+        options: Options,
+    ) -> Result<Slots> {
+        let (found, profile) = simulation::prepare(failure::scene(scene, set)?, profile)?;
+        let case = Case::new(&found, 0, &profile, &[])?;
+        let session = Mutex::new(case.core(options)?);
+        let sample_rate_hz = case.device.device.sample_rate_hz;
+        Ok(Slots { session, profile: case.profile.clone(), sample_rate_hz })
+    }
+
+    fn of_device(
+        profile: &str,
+        calibration: Option<PathBuf>,
+        pads: Option<u64>,
+        options: Options,
+    ) -> Result<Slots> {
+        let profile = failure::profile(profile)?;
+        let device = match calibration {
+            Some(path) => DeviceCalibration::read(&path)?,
+            None => calibrate::nominal(&profile)?,
+        };
+        let (session, profile) = Session::of_device(&profile, &device, pads, options)?;
+        let sample_rate_hz = device.device.sample_rate_hz;
+        Ok(Slots { session: Mutex::new(session), profile, sample_rate_hz })
+    }
+
+    /// Samples of a window and channels.
+    fn lengths(&self) -> [usize; 2] {
+        [self.profile.slot.integrate as usize, self.profile.channels()]
+    }
+}
+
+#[pymethods]
+impl Slots {
+    #[new]
+    #[pyo3(signature = (scene, *, set, profile, calibration, pads, core))]
+    fn new(
+        py: Python<'_>,
+        scene: Option<String>,
+        set: Vec<(String, String)>,
+        profile: Option<String>,
+        calibration: Option<PathBuf>,
+        pads: Option<u64>,
+        core: String,
+    ) -> PyResult<Slots> {
+        apart(py, || {
+            let fidelity = fidelity(&core)?;
+            ensure!(fidelity != Fidelity::Clock, "core: expected float or fixed, got \"clock\"");
+            let options = Options { fidelity, errors: false, reference: false };
+            match scene {
+                Some(scene) => Slots::of_scene(&scene, &set, profile.as_deref(), options),
+                None => {
+                    let profile = profile.as_deref().unwrap_or("standard");
+                    Slots::of_device(profile, calibration, pads, options)
+                }
+            }
+        })
+    }
+
+    /// (samples of a window, channels)
+    #[getter]
+    fn shape(&self) -> (usize, usize) {
+        let [window, channels] = self.lengths();
+        (window, channels)
+    }
+
+    /// Pads that the core serves.
+    #[getter]
+    fn pads(&self) -> usize {
+        self.profile.pads as usize
+    }
+
+    /// The least and the largest code of the ADC.
+    #[getter]
+    fn codes(&self) -> (i64, i64) {
+        let adc = self.profile.formats.adc;
+        (adc.min_code() as i64, adc.max_code() as i64)
+    }
+
+    /// The length of a slot, s.
+    #[getter]
+    fn slot_s(&self) -> f64 {
+        self.profile.slot.samples() as f64 / self.sample_rate_hz
+    }
+
+    /// Takes slots: pads of shape (n,), codes of shape (n, window, channels).
+    fn take(
+        &self,
+        py: Python<'_>,
+        pads: PyReadonlyArray1<'_, i64>,
+        codes: PyReadonlyArray3<'_, i32>,
+    ) -> PyResult<Rows> {
+        let [window, channels] = self.lengths();
+        let (slots, pads) = (codes.as_array().dim(), pads.as_array().to_vec());
+        if slots != (pads.len(), window, channels) {
+            return Err(error(format!(
+                "codes: expected shape ({}, {window}, {channels}), got {slots:?}",
+                pads.len()
+            )));
+        }
+        // Copied, since other threads may write to the array while the core computes.
+        let codes = codes.as_array().iter().copied().collect::<Vec<_>>();
+        let rows = py.detach(|| self.run(&pads, &codes)).map_err(exception)?;
+        Ok(Rows::new(Columns::new(None), record::Rows::of_cases([rows])))
+    }
+}
+
+impl Slots {
+    fn run(&self, pads: &[i64], codes: &[i32]) -> Result<Vec<record::Row>> {
+        let [window, channels] = self.lengths();
+        let slot = |(pad, codes): (&i64, &[i32])| Slot {
+            pad: usize::try_from(*pad).unwrap_or(usize::MAX),
+            signals: Signals::Samples { codes: codes.to_vec(), blanking: 0 },
+        };
+        let slots = || pads.iter().zip(codes.chunks_exact(window * channels)).map(slot);
+        let mut session = held(&self.session);
+        // All of them first: an error leaves the core as it was.
+        slots().try_for_each(|slot| session.check(&slot))?;
+        slots().filter_map(|slot| session.slot(&slot, None).transpose()).collect()
+    }
+}
