@@ -4,6 +4,19 @@ from typing import final
 import numpy as np
 import numpy.typing as npt
 
+__all__ = [
+    "Page",
+    "Rows",
+    "Slots",
+    "Stepped",
+    "__version__",
+    "calibrate",
+    "profiles",
+    "replay",
+    "scenes",
+    "simulate",
+]
+
 __version__: str
 
 def scenes() -> list[str]:

@@ -131,7 +131,7 @@ class Display:
         Parameters
         ----------
         slots : int
-            How many, 0 to 10,000,000.
+            How many, 0 to 1,000,000.
 
         Returns
         -------

@@ -88,7 +88,8 @@ class _Env(gymnasium.Env[_Array, _Array]):
         way_mm = to_mm - self._finger_mm
         length_mm = float(np.hypot(*way_mm))
         self._finger_mm = self._finger_mm + way_mm * min(1.0, _STEP_MM / max(length_mm, 1e-9))
-        self.display.lead(0, *self._finger_mm.tolist(), within_s=1e-3)
+        x_mm, y_mm = self._finger_mm.tolist()
+        self.display.lead(0, x_mm, y_mm, within_s=1e-3)
         return self.display.step(self._slots)
 
     @staticmethod
@@ -102,7 +103,8 @@ class _Env(gymnasium.Env[_Array, _Array]):
             frames["haptic_v_rms"][-1],
             frames["direction"][-1],
         )
-        return np.clip(of_pad, _LEAST, _MOST).astype(np.float32)
+        measured: _Array = np.clip(of_pad, _LEAST, _MOST).astype(np.float32)
+        return measured
 
 
 class Wall(_Env):

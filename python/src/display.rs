@@ -18,7 +18,7 @@ use crate::failure::{self, error, exception, fidelity};
 use crate::rows::Rows;
 
 /// The most slots of a call: a row of each is kept.
-const MOST_SLOTS: usize = 10_000_000;
+const MOST_SLOTS: usize = 1_000_000;
 
 /// A case of a scene with its core, and controller where it has one.
 #[pyclass(frozen, module = "hapticore._core")]

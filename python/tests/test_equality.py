@@ -101,8 +101,8 @@ def test_a_replay_gives_the_frames_of_the_command(command: Command, tmp_path: Pa
 @pytest.mark.parametrize("scene", ["hockey", "peg", "wall-2d", "fig9", "four-pads"])
 def test_a_display_that_is_stepped_gives_the_frames_of_its_run(scene: str) -> None:
     settings = {"duration_s": 0.05} if scene in ("hockey", "peg", "wall-2d") else {}
-    names = list(hc.simulate(scene, settings).resolved_scene)
-    whole = hc.simulate(scene, settings, case=names[0]).frames
+    first_case = hc.simulate(scene, settings).summary["cases"][0]
+    whole = hc.simulate(scene, settings, case=first_case).frames
     display = hc.Display(scene, set=settings)
     slots = min(whole.slots, 300)
     first = display.step(slots // 3)

@@ -260,7 +260,9 @@ fn the_model_knows_no_files_and_no_time() {
 
 #[test]
 fn every_source_names_its_licence() {
-    for folder in ["model", "rtl", "synth", "scene", "waveforms", "host", "cli", "python", "tests"] {
+    for folder in
+        ["model", "rtl", "synth", "scene", "waveforms", "host", "cli", "python/src", "tests"]
+    {
         for path in sources(folder) {
             let text = fs::read_to_string(&path).expect("a source");
             assert!(

@@ -12,7 +12,7 @@ use crate::{read, root};
 use markdown::Document;
 
 /// Folders that are not part of the project's sources.
-const ELSEWHERE: [&str; 5] = [".git", ".tools", "target", "out", "node_modules"];
+const ELSEWHERE: [&str; 6] = [".git", ".tools", ".venv", "target", "out", "node_modules"];
 
 /// Files that people write, by the end of their name; others hold data.
 const TEXTS: [&str; 14] = [
