@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -56,11 +57,19 @@ class Frames(Mapping[str, np.ndarray]):
 
     def __init__(self, rows: _core.Rows, attrs: Mapping[str, Any] | None = None) -> None:
         self._rows = rows
-        self._names = rows.names()
+        self._origin = attrs
         self._arrays: dict[str, np.ndarray] = {}
         self._chosen: np.ndarray | None = None
+
+    @cached_property
+    def _names(self) -> list[str]:
+        return self._rows.names()
+
+    @cached_property
+    def attrs(self) -> dict[str, Any]:
+        """``units`` of the columns; of a run also scene, profile, fidelity, version, seed, ``set``."""
         units = {name: unit(name) for name in self._names if unit(name)}
-        self.attrs: dict[str, Any] = {"units": units, **(attrs or {})}
+        return {"units": units, **(self._origin or {})}
 
     @property
     def slots(self) -> int:
@@ -119,7 +128,7 @@ class Frames(Mapping[str, np.ndarray]):
         chosen = np.ones(self.slots, dtype=np.bool_)
         for column, value in columns.items():
             chosen &= self[column] == value
-        found = Frames(self._rows, self.attrs)
+        found = Frames(self._rows, self._origin)
         before = np.arange(len(self._rows)) if self._chosen is None else self._chosen
         found._chosen = before[chosen]
         return found

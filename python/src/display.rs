@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A display that is stepped slot by slot, with inputs between slots.
 
-use std::sync::Mutex;
+use std::sync::{Arc, Mutex};
 use std::time::Instant;
 
 use anyhow::{Context, Result};
@@ -24,7 +24,7 @@ const MOST_SLOTS: usize = 1_000_000;
 #[pyclass(frozen, module = "hapticore._core")]
 pub struct Stepped {
     stepper: Mutex<Stepper>,
-    columns: Columns,
+    columns: Arc<Columns>,
     channels: usize,
     slot_s: f64,
     parts_mm: Vec<[f64; 2]>,
@@ -45,12 +45,12 @@ impl Stepped {
     fn of(stepper: Stepper) -> Stepped {
         let case = stepper.case();
         let of = &case.scene.cases[case.index];
-        let columns = Columns::new(Some(OfScene {
+        let columns = Arc::new(Columns::new(Some(OfScene {
             cases: vec![case.name().to_string()],
             swept: of.swept(),
             driven: case.plan().is_some(),
             walled: case.plan().is_some_and(|plan| plan.wall.is_some()),
-        }));
+        })));
         let device = stepper.plant().device();
         Stepped {
             columns,

@@ -2,6 +2,7 @@
 //! Rows of slots as NumPy arrays, a column at a time.
 
 use std::collections::HashMap;
+use std::sync::Arc;
 
 use hapticore_run::columns::{Column, Columns, Value};
 use hapticore_run::record::{self, Row};
@@ -12,13 +13,13 @@ use pyo3::prelude::*;
 /// Rows, one for each finished slot.
 #[pyclass(frozen, module = "hapticore._core")]
 pub struct Rows {
-    columns: Columns,
+    columns: Arc<Columns>,
     rows: record::Rows,
 }
 
 impl Rows {
     /// Rows with these columns.
-    pub fn new(columns: Columns, rows: record::Rows) -> Rows {
+    pub fn new(columns: Arc<Columns>, rows: record::Rows) -> Rows {
         Rows { columns, rows }
     }
 

@@ -2,6 +2,7 @@
 //! Whole runs: of scenes, of captures; a calibration from a lab's data.
 
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use anyhow::Result;
 use hapticore_run::case::Settings;
@@ -40,7 +41,7 @@ pub fn simulate(
         let stability = prediction::of_cases(&cases, unstable)?;
         let (mut record, _) =
             simulation::run((&found, &set), (&cases, stability), &settings, None, &|| ())?;
-        let columns = Columns::new(Some(OfScene::of(&record)));
+        let columns = Arc::new(Columns::new(Some(OfScene::of(&record))));
         let rows = std::mem::take(&mut record.rows);
         Ok((Rows::new(columns, rows), serde_json::to_string(&record)?))
     })
@@ -84,7 +85,7 @@ pub fn replay(
             Ok(())
         };
         let replayed = run_capture(&plan, &mut sink, &|| ())?;
-        let rows = Rows::new(Columns::new(None), record::Rows::of_cases([rows]));
+        let rows = Rows::new(Arc::new(Columns::new(None)), record::Rows::of_cases([rows]));
         Ok((rows, serde_json::to_string(&replayed.record)?))
     })
 }

@@ -25,11 +25,17 @@ use crate::rows::Rows;
 #[pyclass(frozen, module = "hapticore._core")]
 pub struct Slots {
     session: Mutex<Session>,
+    columns: Arc<Columns>,
     profile: Arc<Profile>,
     sample_rate_hz: f64,
 }
 
 impl Slots {
+    fn of(session: Session, profile: Arc<Profile>, sample_rate_hz: f64) -> Slots {
+        let columns = Arc::new(Columns::new(None));
+        Slots { session: Mutex::new(session), columns, profile, sample_rate_hz }
+    }
+
     fn of_scene(
         scene: &str,
         set: &[(String, String)],
@@ -38,9 +44,8 @@ impl Slots {
     ) -> Result<Slots> {
         let (found, profile) = simulation::prepare(failure::scene(scene, set)?, profile)?;
         let case = Case::new(&found, 0, &profile, &[])?;
-        let session = Mutex::new(case.core(options)?);
         let sample_rate_hz = case.device.device.sample_rate_hz;
-        Ok(Slots { session, profile: case.profile.clone(), sample_rate_hz })
+        Ok(Slots::of(case.core(options)?, case.profile.clone(), sample_rate_hz))
     }
 
     fn of_device(
@@ -55,8 +60,7 @@ impl Slots {
             None => calibrate::nominal(&profile)?,
         };
         let (session, profile) = Session::of_device(&profile, &device, pads, options)?;
-        let sample_rate_hz = device.device.sample_rate_hz;
-        Ok(Slots { session: Mutex::new(session), profile, sample_rate_hz })
+        Ok(Slots::of(session, profile, device.device.sample_rate_hz))
     }
 
     /// Samples of a window and channels.
@@ -136,7 +140,7 @@ impl Slots {
         // Copied, since other threads may write to the array while the core computes.
         let codes = codes.as_array().iter().copied().collect::<Vec<_>>();
         let rows = py.detach(|| self.run(&pads, &codes)).map_err(exception)?;
-        Ok(Rows::new(Columns::new(None), record::Rows::of_cases([rows])))
+        Ok(Rows::new(self.columns.clone(), record::Rows::of_cases([rows])))
     }
 }
 

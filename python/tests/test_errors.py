@@ -179,6 +179,19 @@ def test_any_lab_data_are_taken_or_refused(tmp_path: Path) -> None:
         take(lambda: hc.calibrate(*files))
 
 
+def test_any_codes_are_measured_or_refused() -> None:
+    core = hc.Core(profile="small", pads=2)
+    least, most = core.codes
+    refused = 0
+    for number, data in enumerate(inputs("core")):
+        codes = np.resize(np.frombuffer(data + bytes(-len(data) % 4 or 4), dtype="<i4"), core.shape)
+        # Any code of 32 bits, and any that the ADC has.
+        within = (codes % (most - least + 1) + least).astype(np.int32)
+        assert core.slot(number % 2, within).pad == number % 2
+        refused += not take(lambda: core.slot(number % 2, codes.astype(np.int32)))
+    assert refused > 0
+
+
 #: Values that no argument of a number expects.
 ODD: list[Any] = [
     -1, 99, 2**31, 2**63, 2**70, -(2**70), 1.5, None, "0", b"0", [], math.nan, math.inf, -math.inf, 1e300, True,
