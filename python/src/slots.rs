@@ -130,31 +130,31 @@ impl Slots {
         codes: PyReadonlyArray3<'_, i32>,
     ) -> PyResult<Rows> {
         let [window, channels] = self.lengths();
-        let (slots, pads) = (codes.as_array().dim(), pads.as_array().to_vec());
-        if slots != (pads.len(), window, channels) {
-            return Err(error(format!(
-                "codes: expected shape ({}, {window}, {channels}), got {slots:?}",
-                pads.len()
-            )));
+        let expected = (pads.as_array().len(), window, channels);
+        let shape = codes.as_array().dim();
+        if shape != expected {
+            return Err(error(format!("codes: expected shape {expected:?}, got {shape:?}")));
         }
-        // Copied, since other threads may write to the array while the core computes.
-        let codes = codes.as_array().iter().copied().collect::<Vec<_>>();
-        let rows = py.detach(|| self.run(&pads, &codes)).map_err(exception)?;
+        let (Ok(pads), Ok(codes)) = (pads.as_slice(), codes.as_slice()) else {
+            return Err(error("pads, codes: expected arrays that are contiguous"));
+        };
+        // Copied, since other threads may write to the arrays while the core computes.
+        let slot = |(pad, codes): (&i64, &[i32])| Slot {
+            pad: usize::try_from(*pad).unwrap_or(usize::MAX),
+            signals: Signals::Samples { codes: codes.to_vec(), blanking: 0 },
+        };
+        let slots: Vec<_> =
+            pads.iter().zip(codes.chunks_exact(window * channels)).map(slot).collect();
+        let rows = py.detach(|| self.run(&slots)).map_err(exception)?;
         Ok(Rows::new(self.columns.clone(), record::Rows::of_cases([rows])))
     }
 }
 
 impl Slots {
-    fn run(&self, pads: &[i64], codes: &[i32]) -> Result<Vec<record::Row>> {
-        let [window, channels] = self.lengths();
-        let slot = |(pad, codes): (&i64, &[i32])| Slot {
-            pad: usize::try_from(*pad).unwrap_or(usize::MAX),
-            signals: Signals::Samples { codes: codes.to_vec(), blanking: 0 },
-        };
-        let slots = || pads.iter().zip(codes.chunks_exact(window * channels)).map(slot);
+    /// Runs slots, of which all are checked first: an error leaves the core as it was.
+    fn run(&self, slots: &[Slot]) -> Result<Vec<record::Row>> {
         let mut session = held(&self.session);
-        // All of them first: an error leaves the core as it was.
-        slots().try_for_each(|slot| session.check(&slot))?;
-        slots().filter_map(|slot| session.slot(&slot, None).transpose()).collect()
+        slots.iter().try_for_each(|slot| session.check(slot))?;
+        slots.iter().filter_map(|slot| session.slot(slot, None).transpose()).collect()
     }
 }
