@@ -3,13 +3,13 @@
 //!
 //! | module | does |
 //! | --- | --- |
-//! | [`failure`] | errors of Rust as exceptions of the package |
-//! | [`apart`] | work without the interpreter's lock, which Ctrl-C ends |
-//! | [`rows`] | rows of slots as NumPy arrays, a column at a time |
-//! | [`runs`] | whole scenes, captures, a lab's data |
-//! | [`slots`] | a core that receives slots |
-//! | [`display`] | a display that is stepped |
-//! | [`page`] | the live page |
+//! | `failure` | errors of Rust as exceptions of the package |
+//! | `apart` | work without the interpreter's lock, which Ctrl-C ends |
+//! | `rows` | rows of slots as NumPy arrays, a column at a time |
+//! | `runs` | whole scenes, captures, a lab's data |
+//! | `slots` | a core that receives slots |
+//! | `display` | a display that is stepped |
+//! | `page` | the live page |
 //!
 //! Arguments are checked before they change anything: an error leaves every object as it was.
 
