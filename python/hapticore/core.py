@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, fields
 from typing import Any
 
@@ -201,6 +201,44 @@ class Core:
         codes = self._checked(codes, (len(of_slots), *self.shape))
         numbers = np.ascontiguousarray(of_slots, dtype=np.int64)
         return Frames(self._slots.take(numbers, codes))
+
+    def signals(self) -> list[str]:
+        """Names of all signals of the core, with the blocks that they belong to.
+
+        Raises
+        ------
+        Error
+            A calibration that the profile cannot represent.
+        """
+        return self._slots.signals()
+
+    def trace(
+        self, codes: npt.NDArray[np.int32], signals: str | Iterable[str]
+    ) -> dict[str, npt.NDArray[np.float64]]:
+        """Clock a core through one slot, and keep signals after each clock.
+
+        Another core with the same calibration, after a reset, receives the slot as that of pad 0,
+        behind a blanking without current, and is clocked until its frame is finished. This core
+        stays as it is.
+
+        Parameters
+        ----------
+        codes : ndarray of int32, shape (window, channels)
+            ADC codes of the slot's window, as for `slot`.
+        signals : str or list of str
+            Names of signals (`signals`).
+
+        Returns
+        -------
+        dict of str to ndarray of float64, shape (clocks,)
+            Each signal's value: its code times the least significant bit of its format.
+
+        Raises
+        ------
+        Error
+            No such signal; codes as for `slot`.
+        """
+        return self._slots.trace(self._checked(codes, self.shape), _values.names(signals))
 
     @staticmethod
     def _checked(codes: Any, shape: tuple[int, ...]) -> npt.NDArray[np.int32]:

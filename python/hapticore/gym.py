@@ -130,7 +130,8 @@ class Wall(_Env):
     Notes
     -----
     The reward of a step is 0.01 at a measured force of 0.3 N and falls linearly to 0 at 0 and at
-    0.6 N. ``info["found"]`` is True once the force was 0.1 to 0.5 N for 100 ms; ``info["wall_mm"]`` is where the wall lies. An episode is truncated after 1000 steps.
+    0.6 N. ``info["found"]`` is True once the force was 0.1 to 0.5 N for 100 ms;
+    ``info["wall_mm"]`` is where the wall lies. An episode is truncated after 1000 steps.
     ``options={"wall_mm": -12.5}`` of `reset` puts the wall to a place.
     """
 

@@ -8,6 +8,7 @@
 //! | `rows` | rows of slots as NumPy arrays, a column at a time |
 //! | `runs` | whole scenes, captures, a lab's data |
 //! | `slots` | a core that receives slots |
+//! | `trace` | the signals of a core, clock by clock |
 //! | `display` | a display that is stepped |
 //! | `page` | the live page |
 //!
@@ -20,6 +21,7 @@ mod page;
 mod rows;
 mod runs;
 mod slots;
+mod trace;
 
 use hapticore_scene::gallery;
 use pyo3::prelude::*;

@@ -14,12 +14,14 @@ use hapticore_run::engine::{Fidelity, Signals, Slot};
 use hapticore_run::record;
 use hapticore_run::session::{Options, Session};
 use hapticore_run::simulation;
-use numpy::{PyReadonlyArray1, PyReadonlyArray3};
+use numpy::{IntoPyArray, PyReadonlyArray1, PyReadonlyArray2, PyReadonlyArray3};
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 
 use crate::apart::{apart, held};
 use crate::failure::{self, error, exception, fidelity};
 use crate::rows::Rows;
+use crate::trace;
 
 /// A core with the calibration of a device.
 #[pyclass(frozen, module = "hapticore._core")]
@@ -27,13 +29,13 @@ pub struct Slots {
     session: Mutex<Session>,
     columns: Arc<Columns>,
     profile: Arc<Profile>,
-    sample_rate_hz: f64,
+    device: DeviceCalibration,
 }
 
 impl Slots {
-    fn of(session: Session, profile: Arc<Profile>, sample_rate_hz: f64) -> Slots {
+    fn of(session: Session, profile: Arc<Profile>, device: DeviceCalibration) -> Slots {
         let columns = Arc::new(Columns::new(None));
-        Slots { session: Mutex::new(session), columns, profile, sample_rate_hz }
+        Slots { session: Mutex::new(session), columns, profile, device }
     }
 
     fn of_scene(
@@ -44,8 +46,7 @@ impl Slots {
     ) -> Result<Slots> {
         let (found, profile) = simulation::prepare(failure::scene(scene, set)?, profile)?;
         let case = Case::new(&found, 0, &profile, &[])?;
-        let sample_rate_hz = case.device.device.sample_rate_hz;
-        Ok(Slots::of(case.core(options)?, case.profile.clone(), sample_rate_hz))
+        Ok(Slots::of(case.core(options)?, case.profile.clone(), (**case.device).clone()))
     }
 
     fn of_device(
@@ -60,7 +61,7 @@ impl Slots {
             None => calibrate::nominal(&profile)?,
         };
         let (session, profile) = Session::of_device(&profile, &device, pads, options)?;
-        Ok(Slots::of(session, profile, device.device.sample_rate_hz))
+        Ok(Slots::of(session, profile, device))
     }
 
     /// Samples of a window and channels.
@@ -119,7 +120,33 @@ impl Slots {
     /// The length of a slot, s.
     #[getter]
     fn slot_s(&self) -> f64 {
-        self.profile.slot.samples() as f64 / self.sample_rate_hz
+        self.profile.slot.samples() as f64 / self.device.device.sample_rate_hz
+    }
+
+    /// Names of all signals of the core.
+    fn signals(&self, py: Python<'_>) -> PyResult<Vec<String>> {
+        apart(py, || Ok(trace::names(&self.profile, &self.device.for_profile(&self.profile)?)))
+    }
+
+    /// Signals of a core after a reset through a slot of pad 0, after each clock: codes of shape (window, channels).
+    fn trace<'py>(
+        &self,
+        py: Python<'py>,
+        codes: PyReadonlyArray2<'py, i32>,
+        signals: Vec<String>,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let codes: Vec<i32> = codes.as_array().iter().copied().collect();
+        let slot = Slot { pad: 0, signals: Signals::Samples { codes, blanking: 0 } };
+        let traced = apart(py, || {
+            held(&self.session).check(&slot)?;
+            let calibration = self.device.for_profile(&self.profile)?;
+            trace::trace((&self.profile, &calibration), slot.window(), &signals)
+        })?;
+        let arrays = PyDict::new(py);
+        for (name, values) in traced {
+            arrays.set_item(name, values.into_pyarray(py))?;
+        }
+        Ok(arrays)
     }
 
     /// Takes slots: pads of shape (n,), codes of shape (n, window, channels).

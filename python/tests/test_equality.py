@@ -147,6 +147,21 @@ def test_a_slot_alone_gives_the_row_of_many() -> None:
         )
 
 
+def test_a_trace_ends_with_what_the_slot_measures() -> None:
+    display, core = hc.Display("hockey"), hc.Core("hockey")
+    display.step()
+    names = core.signals()
+    assert len(set(names)) == len(names) > 50
+    force, count = "estimator.force_estimator.haptic_force", "multiplexer.count"
+    traced = core.trace(display.codes(), [force, count])
+    assert list(traced) == [force, count]
+    assert traced[force].shape == traced[count].shape
+    assert len(traced[force]) > core.shape[0] * 10
+    assert len(set(traced[count])) > 1
+    measured = core.slot(0, display.codes())
+    assert (traced[force][0], traced[force][-1]) == (0.0, measured.force_n)
+
+
 def test_a_display_after_a_reset_gives_its_first_frames_again() -> None:
     display = hc.Display("wall-2d")
     first = display.step(40)

@@ -227,6 +227,17 @@ def test_odd_codes_are_refused_and_leave_the_core_as_it_was() -> None:
     assert all(a[name].tolist() == b[name].tolist() for name in a)
 
 
+def test_a_trace_of_wrong_codes_or_signals_is_refused() -> None:
+    core = hc.Core(profile="small")
+    name = core.signals()[0]
+    zeros = np.zeros(core.shape, np.int32)
+    for codes in (zeros[1:], zeros.astype(float), zeros + core.codes[1] + 1, None):
+        with pytest.raises(hc.Error, match="codes"):
+            core.trace(codes, name)  # type: ignore[arg-type]
+    with pytest.raises(hc.Error, match="nothing"):
+        core.trace(zeros, [name, "nothing"])
+
+
 def test_a_message_says_shape_and_dtype() -> None:
     core = hc.Core("hockey")
     with pytest.raises(hc.Error) as caught:

@@ -86,8 +86,10 @@ const IMPORTS: [(&str, &[&str]); 19] = [
         "python",
         &[
             "hapticore-contract",
+            "hapticore-hdl",
             "hapticore-host",
             "hapticore-live",
+            "hapticore-model",
             "hapticore-run",
             "hapticore-scene",
         ],
