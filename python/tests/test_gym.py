@@ -102,4 +102,4 @@ def test_a_policy_that_is_trained_longer_rests_in_the_wall(monkeypatch: pytest.M
     monkeypatch.setenv("HAPTICORE_LONG", "1")
     found = runpy.run_path(str(POLICY))
     assert found["found"] == found["trials"]
-    assert found["score"] > 5.0
+    assert found["score"] > 4.0
