@@ -306,7 +306,7 @@ Exit status: 0 done, 1 the board was not brought up or --check has found somethi
 /// Arguments of `host`.
 #[derive(Debug, Clone, clap::Args)]
 pub struct HostArgs {
-    /// list, a serial port, tcp:ADDRESS:PORT, or virtual[:SCENE]
+    /// list, a serial port, tcp:ADDRESS:PORT, virtual or virtual:SCENE
     #[arg(value_name = "PORT")]
     pub port: String,
     /// The device's calibration [default of a virtual board: its device's]

@@ -3,7 +3,7 @@
 //!
 //! | module | does |
 //! | --- | --- |
-//! | [`bench`] | what the next two need: a board's start-up, pads at places, frames |
+//! | [`bench`](mod@bench) | what the next two need: a board's start-up, pads at places, frames |
 //! | [`check`](mod@check) | which line is open, swapped, reversed, noisy, clipped, which pad is missing |
 //! | [`guide`](mod@guide) | a calibration from pads that are put at places, one after the other |
 //! | [`virtual_board`] | a scene behind the registers and packets of a board |

@@ -8,14 +8,13 @@ use hapticore_board::guide::guide;
 use hapticore_board::target::{Asked, virtual_device};
 use hapticore_host::{DeviceCalibration, Quantities, Readout, Residual};
 
-fn bench(scene: &str, set: &[(&str, &str)]) -> DeviceTime {
-    let set = set.iter().map(|(key, value)| (key.to_string(), value.to_string())).collect();
-    let asked = Asked { port: format!("virtual:{scene}"), set, ..Asked::default() };
-    DeviceTime::new(virtual_device(&asked).expect("a bundled scene"))
-}
+/// Keys of a scene and their values.
+type Keys = &'static [(&'static str, &'static str)];
 
-fn device(scene: &str) -> DeviceCalibration {
-    (**bench(scene, &[]).board.case().device).clone()
+fn bench(set: Keys) -> DeviceTime {
+    let set = set.iter().map(|(key, value)| (key.to_string(), value.to_string())).collect();
+    let asked = Asked { port: "virtual:hockey".into(), set, ..Asked::default() };
+    DeviceTime::new(virtual_device(&asked).expect("a bundled scene"))
 }
 
 /// Position errors of a board with a calibration, at places drawn at random.
@@ -43,16 +42,16 @@ fn errors(bench: &mut DeviceTime, device: &DeviceCalibration) -> Residual {
 #[test]
 fn a_guided_calibration_finds_pads_of_another_device() {
     // Keys of the device, and the error that is left, mm rms.
-    let devices: [(&str, &[(&str, &str)], f64); 3] = [
-        ("hockey", &[("sheet.terminal_ohm", "100")], 2.0),
-        ("hockey", &[("sensor.gain_mismatch_percent", "2")], 2.0),
-        ("hockey", &[("sheet.slope_percent", "[20, 0]"), ("sheet.rung", "grid-5-mm")], 2.0),
+    let devices: [(Keys, f64); 3] = [
+        (&[("sheet.terminal_ohm", "100")], 2.0),
+        (&[("sensor.gain_mismatch_percent", "2")], 2.0),
+        (&[("sheet.slope_percent", "[20, 0]"), ("sheet.rung", "grid-5-mm")], 2.0),
     ];
-    for (scene, set, limit_mm) in devices {
-        let own = device(scene);
-        let mut board = bench(scene, set);
+    let own = (**bench(&[]).board.case().device).clone();
+    for (set, limit_mm) in devices {
+        let mut board = bench(set);
         let before = errors(&mut board, &own);
-        let corrected = guide(&mut bench(scene, set), &own).expect("a calibration");
+        let corrected = guide(&mut bench(set), &own).expect("a calibration");
         let after = errors(&mut board, &corrected.device);
         eprintln!(
             "{set:?}: {}; held out {}; then {}",

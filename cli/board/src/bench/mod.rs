@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What a check and a calibration need of a board: its start-up, pads at places, frames.
 //!
-//! Frames carry no currents, only ratios and the sum of currents per sensing voltage. [`for_any_ratios`] makes a
+//! Frames carry no currents, only ratios and the sum of currents per sensing voltage. So both begin with a
 //! calibration with which they are valid anywhere.
 
 mod device_time;
