@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A virtual board in real time, as a line within this process.
 //!
+//! What the host writes waits in a box of its own, from which the board takes it as it runs: a writer that waited for a board
+//! behind its time would be silent for too long.
+//!
 //! Device time is wall time, times a factor for a clock that is off. A machine that is too slow leaves time out, so that
 //! what comes is late and never wrong.
 
 use std::io::{self, Read, Write};
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard};
 use std::thread;
 use std::time::{Duration, Instant};
@@ -21,12 +25,40 @@ const WAIT: Duration = Duration::from_millis(20);
 const PAUSE: Duration = Duration::from_millis(1);
 /// A board that is further behind leaves time out, s.
 const BEHIND_S: f64 = 0.05;
+/// How long it runs until it looks for what was written, s.
+const CHUNK_S: f64 = 0.005;
 
 /// A virtual board that runs, shared by its line and by who acts on it.
 #[derive(Clone)]
 pub struct Running {
     name: String,
     shared: Arc<Mutex<Shared>>,
+    written: Arc<Written>,
+}
+
+/// What hosts have written and the board has not taken yet.
+#[derive(Default)]
+struct Written {
+    /// Counts ends of the line, so that the ends of an earlier one are dead.
+    line: AtomicU64,
+    bytes: Mutex<Vec<u8>>,
+}
+
+impl Written {
+    fn line(&self) -> u64 {
+        self.line.load(Ordering::SeqCst)
+    }
+
+    fn bytes(&self) -> MutexGuard<'_, Vec<u8>> {
+        self.bytes.lock().unwrap_or_else(|poisoned| poisoned.into_inner())
+    }
+
+    /// What has been written to a line that has ended is lost.
+    fn end_line(&self) {
+        let mut bytes = self.bytes();
+        self.line.fetch_add(1, Ordering::SeqCst);
+        bytes.clear();
+    }
 }
 
 struct Shared {
@@ -39,14 +71,14 @@ struct Shared {
     /// Time that was left out, s.
     skipped_s: f64,
     unplugged: bool,
-    /// Counts ends of the line, so that the ends of an earlier one are dead.
-    line: u64,
+    written: Arc<Written>,
     failed: Option<String>,
 }
 
 impl Running {
     /// Lets a board run from now on.
     pub fn new(name: &str, board: VirtualBoard) -> Running {
+        let written = Arc::<Written>::default();
         let shared = Shared {
             from_s: board.now_s(),
             board,
@@ -54,10 +86,10 @@ impl Running {
             speed: 1.0,
             skipped_s: 0.0,
             unplugged: false,
-            line: 0,
+            written: written.clone(),
             failed: None,
         };
-        Running { name: name.into(), shared: Arc::new(Mutex::new(shared)) }
+        Running { name: name.into(), shared: Arc::new(Mutex::new(shared)), written }
     }
 
     /// Acts on the board between two slots.
@@ -93,7 +125,7 @@ impl Running {
     pub fn unplug(&self, unplugged: bool) {
         let mut shared = self.lock();
         shared.unplugged = unplugged;
-        shared.line += 1;
+        self.written.end_line();
     }
 
     /// Presses the board's reset button.
@@ -102,13 +134,15 @@ impl Running {
     }
 
     fn lock(&self) -> MutexGuard<'_, Shared> {
-        self.shared.lock().unwrap_or_else(|poisoned| poisoned.into_inner())
+        let mut shared = self.shared.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+        shared.take_written();
+        shared
     }
 
     /// The board's bytes up to now; none where the line that was `line` has ended.
     fn read(&self, line: u64) -> io::Result<Option<Vec<u8>>> {
         let mut shared = self.lock();
-        if shared.unplugged || shared.line != line {
+        if shared.unplugged || self.written.line() != line {
             return Ok(None);
         }
         shared.catch_up()?;
@@ -117,6 +151,12 @@ impl Running {
 }
 
 impl Shared {
+    /// The board takes what has been written.
+    fn take_written(&mut self) {
+        let bytes = std::mem::take(&mut *self.written.bytes());
+        self.board.receive(&bytes);
+    }
+
     /// Lets the board run up to now.
     fn catch_up(&mut self) -> io::Result<()> {
         if let Some(why) = &self.failed {
@@ -125,11 +165,16 @@ impl Shared {
         let due_s = self.from_s + self.speed * self.begun.elapsed().as_secs_f64() - self.skipped_s;
         let until_s = due_s.min(self.board.now_s() + BEHIND_S);
         self.skipped_s += due_s - until_s;
-        self.board.advance(until_s).map_err(|error| {
-            let why = format!("the virtual board has stopped: {error:#}");
-            self.failed = Some(why.clone());
-            io::Error::other(why)
-        })
+        while self.board.now_s() < until_s {
+            let next_s = until_s.min(self.board.now_s() + CHUNK_S);
+            self.board.advance(next_s).map_err(|error| {
+                let why = format!("the virtual board has stopped: {error:#}");
+                self.failed = Some(why.clone());
+                io::Error::other(why)
+            })?;
+            self.take_written();
+        }
+        Ok(())
     }
 }
 
@@ -146,7 +191,7 @@ impl Line for Running {
             }
             let _ = shared.catch_up();
             shared.board.lose_bytes();
-            shared.line
+            self.written.line()
         };
         let reader = End { running: self.clone(), line, rest: Vec::new() };
         let writer = End { running: self.clone(), line, rest: Vec::new() };
@@ -184,12 +229,12 @@ impl Read for End {
 
 impl Write for End {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        let mut shared = self.running.lock();
-        if shared.unplugged || shared.line != self.line {
+        let written = &self.running.written;
+        let mut waiting = written.bytes();
+        if written.line() != self.line {
             return Err(io::Error::new(io::ErrorKind::BrokenPipe, "unplugged"));
         }
-        shared.catch_up()?;
-        shared.board.receive(bytes);
+        waiting.extend(bytes);
         Ok(bytes.len())
     }
 

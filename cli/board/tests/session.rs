@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A host's session with virtual boards: start-up, faults of the line, and a drive that is off until it is armed.
 
+use std::sync::mpsc;
 use std::time::{Duration, Instant};
 
 use hapticore_board::faults::{Noise, Wrong};
 use hapticore_board::target::{Asked, target};
 use hapticore_board::virtual_line::Running;
 use hapticore_host::Packet;
-use hapticore_host::link::{Phase, Refusal, Session, SessionEvent};
+use hapticore_host::link::{Line, Phase, Refusal, Session, SessionEvent};
 use hapticore_host::startup::StartupError;
 
 /// A session, its board, and what it has reported.
@@ -203,4 +204,15 @@ fn what_cannot_be_driven_is_refused_in_words() {
     assert!(words(bench.session.arm()).contains("it is off"));
     let mut sensor = Bench::measuring("virtual");
     assert!(words(sensor.session.arm()).contains("this board has no drive"));
+}
+
+#[test]
+fn a_writer_never_waits_for_a_board_that_is_behind() {
+    let mut board = Bench::new("virtual").board;
+    let mut writer = board.open().expect("plugged in").writer;
+    let (done, is_done) = mpsc::channel();
+    board.with(|_| {
+        std::thread::spawn(move || done.send(writer.write_all(&[0]).is_ok()));
+        assert_eq!(is_done.recv_timeout(Duration::from_secs(20)), Ok(true), "the board is at work");
+    });
 }
