@@ -254,7 +254,7 @@ impl Case {
             .filter_map(|read| read(root, &device).transpose())
             .collect::<Result<_, _>>()?;
         let has = |name| effects.iter().any(|effect| effect.name == name);
-        let control = ControlPlan::read(root)?;
+        let control = ControlPlan::read(root, &device)?;
         let has = Tables {
             gap: has("gap"),
             finger: has("hand"),
@@ -281,7 +281,7 @@ impl Case {
         }
         let nominal = if cancels_crosstalk { Some(nominal(root, &device)?) } else { None };
         let length = Length::read(root, &pads)?;
-        let doubts = doubts::of_scene(root, &effects, control.as_ref(), &pads)?;
+        let doubts = doubts::of_scene(root, (&device, &effects), control.as_ref(), &pads)?;
         Ok(Case {
             name: name.to_string(),
             document: document(root, name),

@@ -16,6 +16,7 @@
 //! ([`Plant::set_drive`](crate::Plant::set_drive)). This is what a run is asked to close around it,
 //! in volts and newtons. Source: paper, eq. 9 and Fig. 8; docs/physics.md §6.
 
+use crate::device::Device;
 use crate::error::SceneError;
 use crate::format::{Limits, Table};
 use crate::wall::WallPlan;
@@ -79,6 +80,9 @@ const CURVES: [(&str, DriveCurve); 3] = [
 /// What a curve, a full scale or a cap may be.
 const LIMITS: Limits = Limits::within(1e-6, 1e6);
 
+/// The rail where none is given, by what the haptic channel reads: noise and the sensing signal come on top.
+const HEADROOM: f64 = 0.95;
+
 /// α where the gain follows from the device: a correction without a filter swings immediately.
 const FILTER: f64 = 0.2;
 
@@ -133,7 +137,7 @@ impl ControlPlan {
     }
 
     /// The table, where there is one.
-    pub(crate) fn read(root: &Table) -> Result<Option<ControlPlan>, SceneError> {
+    pub(crate) fn read(root: &Table, device: &Device) -> Result<Option<ControlPlan>, SceneError> {
         let Some(table) = root.table("control")? else { return Ok(None) };
         let number = |key, default| table.number_or(key, LIMITS, default);
         let law = table.word("law", &LAWS)?.unwrap_or(ControlLaw::Inverse);
@@ -155,7 +159,11 @@ impl ControlPlan {
             proportional_v,
             filter: table.number_or("filter", Limits::above(0.0, 1.0), filter)?,
             integral_v,
-            rail_v: table.number_or("rail_v", within, full_scale_v)?,
+            rail_v: table.number_or(
+                "rail_v",
+                within,
+                full_scale_v.min(HEADROOM * device.readable_v()),
+            )?,
             slew_v: table.number_or("slew_v", within, full_scale_v)?,
             force_cap_n: number("force_cap_n", 1e6)?,
             wall: WallPlan::read(root)?,

@@ -68,6 +68,11 @@ pub struct Device {
 }
 
 impl Device {
+    /// The largest haptic voltage that the core can read, V rms.
+    pub(crate) fn readable_v(&self) -> f64 {
+        self.haptic_full_scale_v / self.haptic_wave.crest()
+    }
+
     /// The device under a core. The sample rate is the whole multiple of the scene's carrier that is
     /// nearest to its oscillator's samples per period. The carrier is what the oscillator makes of
     /// it: 101 kHz for 100 kHz at 9.9 samples.

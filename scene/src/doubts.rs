@@ -2,6 +2,7 @@
 //! What of a scene can be run, but makes results that mean less than they seem to.
 
 use crate::control::{ControlLaw, ControlPlan};
+use crate::device::Device;
 use crate::effects::Spec;
 use crate::error::SceneError;
 use crate::format::Table;
@@ -13,7 +14,7 @@ const AT_REST: [&str; 2] = ["static", "hysteresis"];
 /// The doubts about a scene, a sentence each, which begins with the key that is their cause.
 pub(crate) fn of_scene(
     root: &Table,
-    effects: &[Spec],
+    (device, effects): (&Device, &[Spec]),
     control: Option<&ControlPlan>,
     pads: &[PadPlan],
 ) -> Result<Vec<String>, SceneError> {
@@ -22,6 +23,7 @@ pub(crate) fn of_scene(
         gap_at_rest(effects),
         no_friction(effects),
         open_law(control),
+        rail_that_clips(device, control),
         unreadable_direction(root, control, pads)?,
     ];
     Ok(all.into_iter().flatten().collect())
@@ -64,6 +66,17 @@ fn open_law(control: &ControlPlan) -> Option<String> {
         format!(
             "control.{key} = 0 with law = \"{law}\": nothing takes an error of the force away; leave the gains out, and \
              they follow from the device"
+        )
+    })
+}
+
+/// A drive that the haptic channel cannot read: then estimates are invalid, and the drive stays off.
+fn rail_that_clips(device: &Device, control: &ControlPlan) -> Option<String> {
+    let (rail_v, readable_v) = (control.rail_v, device.readable_v());
+    (rail_v > readable_v).then(|| {
+        format!(
+            "control.rail_v = {rail_v}: the haptic channel clips above {readable_v:.0} V rms, and a pad driven higher is \
+             switched off; lower it, or raise sensor.haptic_full_scale_v"
         )
     })
 }

@@ -47,6 +47,14 @@ impl HapticWave {
         }
     }
 
+    /// Peak value over rms value.
+    pub(crate) fn crest(self) -> f64 {
+        match self {
+            HapticWave::Sine => std::f64::consts::SQRT_2,
+            HapticWave::Dc | HapticWave::Square { .. } => 1.0,
+        }
+    }
+
     /// The same under a core whose slots last so long.
     pub(crate) fn in_slots_of(self, slot_s: f64) -> HapticWave {
         match self {

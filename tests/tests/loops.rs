@@ -72,7 +72,9 @@ const FAULTS: [Fault; 12] = [
     },
     Fault {
         kind: "haptic voltage beyond its full scale",
-        set: |_| vec![("sensor.haptic_full_scale_v", "100".into())],
+        set: |_| {
+            vec![("sensor.haptic_full_scale_v", "100".into()), ("control.rail_v", "500".into())]
+        },
         words: "flag clipped: case \"main\", pad \"PAD\"",
         flag: Some("clipped"),
         of_pads: true,

@@ -119,3 +119,27 @@ fn a_moving_gap_without_friction_has_the_force_of_its_patches() {
     let truth = truths.find(|truth| truth.time_s >= 0.24).expect("a slot");
     assert!((truth.force_n - 0.2011).abs() < 0.0005, "{}", truth.force_n);
 }
+
+#[test]
+fn a_rail_that_nobody_names_is_one_that_the_haptic_channel_reads() {
+    let of = |set: &str| {
+        let case = &crate::common::scene(&format!("{CONTROLLED}[gap]\n{set}")).cases[0];
+        (case.control.clone().unwrap().rail_v, case.doubts.clone())
+    };
+    let square = "[carrier]\nhaptic_wave = \"square\"\n";
+    for (set, expected) in [
+        ("", 0.95 * 600.0 / 2f64.sqrt()),
+        (square, 500.0),
+        ("[sensor]\nhaptic_full_scale_v = 300\n", 0.95 * 300.0 / 2f64.sqrt()),
+        ("[sensor]\nhaptic_full_scale_v = 3000\n", 500.0),
+    ] {
+        let (rail_v, doubts) = of(set);
+        assert!(
+            (rail_v - expected).abs() < 1e-9 && doubts.is_empty(),
+            "{set}: {rail_v} {doubts:?}"
+        );
+    }
+    let text = format!("{CONTROLLED}[gap]\n").replacen("[control]", "[control]\nrail_v = 425", 1);
+    let doubts = doubts(&text);
+    assert!(doubts.len() == 1 && doubts[0].starts_with("control.rail_v = 425"), "{doubts:?}");
+}
