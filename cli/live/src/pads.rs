@@ -135,7 +135,10 @@ impl Pads {
     /// What the state of a pad follows from.
     fn signs(&self, row: &PadRow, last: &Row, walls: &[Surface]) -> Signs {
         let measured = [row.x_mm, row.y_mm, row.force_n, row.capacitance_pf];
-        let brakes = |driven: &Driven| driven.free == Some(false) && driven.target_n > 0.0;
+        // Where walls are off, a pad with a target of its own is in none.
+        let has_wall = walls.iter().any(|wall| wall.mm.is_some());
+        let brakes =
+            |driven: &Driven| has_wall && driven.free == Some(false) && driven.target_n > 0.0;
         let place = [row.true_x_mm, row.true_y_mm].map(|mm| mm.unwrap_or(f64::NAN));
         let hand_n = [row.hand_x_n, row.hand_y_n].map(|force_n| force_n.unwrap_or(0.0));
         let around: Vec<&Surface> =
