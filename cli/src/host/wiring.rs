@@ -29,6 +29,13 @@ pub(super) fn check_wiring(found: Target) -> Result<bool> {
 
 /// Corrects the calibration, and writes it to a file.
 pub(super) fn calibrate(found: Target, file: &Path) -> Result<()> {
+    let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty());
+    // Nobody puts a pad at 24 places twice for a file that cannot be written.
+    ensure!(
+        folder.is_none_or(Path::is_dir) && !file.is_dir(),
+        "--calibrate: expected a file in a folder that is there, got {}",
+        file.display()
+    );
     let device = found.device.clone();
     let stop = || interrupt::check().is_err();
     let corrected = guide(&mut RealTime::new(found, ask, tell, &stop), &device)?;

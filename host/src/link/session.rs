@@ -69,6 +69,23 @@ pub enum Phase {
     Refused,
 }
 
+impl Phase {
+    /// Its name, as `status` and a page show it.
+    pub fn word(&self) -> &'static str {
+        match self {
+            Phase::Disconnected => "disconnected",
+            Phase::Silent => "silent",
+            Phase::Identifying => "identifying",
+            Phase::Preparing => "starting up",
+            Phase::TestingLine(_) => "testing lines",
+            Phase::Measuring => "measuring",
+            Phase::Armed => "armed",
+            Phase::Off => "off",
+            Phase::Refused => "refused",
+        }
+    }
+}
+
 /// What a session reports.
 #[derive(Debug, Clone, PartialEq)]
 pub enum SessionEvent {
@@ -238,9 +255,8 @@ impl Session {
             Event::Silent if self.phase != Phase::Identifying => {
                 self.lose(Phase::Silent, "the board is silent: check its power and cable", report);
             }
-            Event::Message(message) if self.phase == Phase::Silent => {
+            Event::Message(_) if self.phase == Phase::Silent => {
                 report(SessionEvent::Note("the board is back".into()));
-                let _ = message;
                 self.attempts = 0;
                 self.identify();
             }

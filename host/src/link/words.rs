@@ -2,26 +2,8 @@
 //! What a session says, in words: cause, then cure.
 
 use super::Statistics;
-use super::session::Phase;
 use crate::packet::Heartbeat;
 use hapticore_contract::control::Faults;
-
-impl Phase {
-    /// Its name, as `status` and a page show it.
-    pub fn word(&self) -> &'static str {
-        match self {
-            Phase::Disconnected => "disconnected",
-            Phase::Silent => "silent",
-            Phase::Identifying => "identifying",
-            Phase::Preparing => "starting up",
-            Phase::TestingLine(_) => "testing lines",
-            Phase::Measuring => "measuring",
-            Phase::Armed => "armed",
-            Phase::Off => "off",
-            Phase::Refused => "refused",
-        }
-    }
-}
 
 /// What a board says that it is.
 pub(super) fn identity(heartbeat: &Heartbeat) -> String {

@@ -143,9 +143,10 @@ fn a_board_behind_a_pseudo_terminal_loses_nothing() {
 #[test]
 fn host_refuses_what_it_cannot_use() {
     let folder = tempfile::tempdir().unwrap();
-    let cases: [(&[&str], &str); 7] = [
+    let cases: [(&[&str], &str); 8] = [
         (&["/dev/ttyUSB9"], "--calibration: expected the device's calibration"),
         (&["virtual:none"], "expected a file or a scene among"),
+        (&["virtual", "--calibrate", "nowhere/mine.toml"], "--calibrate: expected a file"),
         (&["virtual", "--dac", "ad5664r"], "--dac: expected none with a virtual board"),
         (&["virtual", "--arm"], "--arm: expected a board with a drive"),
         (&["virtual:fig9", "--target", "9=0.1", "--arm"], "--target: pad: expected below"),

@@ -3,7 +3,7 @@
 
 use std::collections::VecDeque;
 
-use anyhow::{Context, Result, bail, ensure};
+use anyhow::{Context, Result, bail};
 use hapticore_contract::calibration::Calibration;
 use hapticore_contract::profile::Profile;
 use hapticore_host::bringup::{BringUp, Step};
@@ -142,16 +142,8 @@ impl Bench for DeviceTime {
         Ok(())
     }
 
-    fn frames(&mut self, of_each: usize) -> Result<Vec<Packet>> {
-        let mut packets: Vec<Packet> = Vec::new();
-        let mut counts = vec![0; self.profile.pads as usize];
-        while counts.iter().any(|count| *count < of_each) {
-            let packet = self.next(Message::frame)?;
-            counts[packet.frame.pad] += 1;
-            packets.push(packet);
-            ensure!(packets.len() < 1 << 16, "expected frames of all pads");
-        }
-        Ok(packets)
+    fn next_frames(&mut self) -> Result<Vec<Packet>> {
+        Ok(vec![self.next(Message::frame)?])
     }
 
     fn tell(&mut self, _: &str) {}

@@ -7,7 +7,7 @@
 mod device_time;
 mod real_time;
 
-use anyhow::Result;
+use anyhow::{Result, ensure};
 use hapticore_contract::calibration::{Calibration, Point, PositionTable};
 use hapticore_contract::profile::Profile;
 use hapticore_host::startup::{AdcSetup, LineFault};
@@ -16,6 +16,8 @@ use hapticore_host::{DeviceCalibration, Packet};
 pub use device_time::DeviceTime;
 pub use real_time::RealTime;
 
+/// Frames in which each pad has come, some seconds of them.
+const MOST_FRAMES: usize = 1 << 16;
 /// The first frames after pads were moved are of the motion.
 pub(crate) const MOVING: usize = 4;
 /// How long pads take to a place, s.
@@ -52,11 +54,27 @@ pub trait Bench {
     /// A place off the sheet; a user who has gone.
     fn put(&mut self, places: &[Place]) -> Result<()>;
 
-    /// Frames from now on, this many of each pad at least.
+    /// The next frames, one at least.
     ///
     /// # Errors
     /// A board that sends none any more.
-    fn frames(&mut self, of_each: usize) -> Result<Vec<Packet>>;
+    fn next_frames(&mut self) -> Result<Vec<Packet>>;
+
+    /// Frames from now on, this many of each pad at least.
+    ///
+    /// # Errors
+    /// A board that sends none any more, or none of a pad.
+    fn frames(&mut self, of_each: usize) -> Result<Vec<Packet>> {
+        let mut counts = vec![0; self.profile().pads as usize];
+        let mut packets: Vec<Packet> = Vec::new();
+        while counts.iter().any(|count| *count < of_each) {
+            let new = self.next_frames()?;
+            new.iter().for_each(|packet| counts[packet.frame.pad] += 1);
+            packets.extend(new);
+            ensure!(packets.len() < MOST_FRAMES, "expected frames of all pads");
+        }
+        Ok(packets)
+    }
 
     /// Says what is done.
     fn tell(&mut self, text: &str);

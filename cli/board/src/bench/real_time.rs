@@ -121,20 +121,15 @@ impl Bench for RealTime<'_> {
         Ok(())
     }
 
-    fn frames(&mut self, of_each: usize) -> Result<Vec<Packet>> {
-        let mut packets: Vec<Packet> = Vec::new();
-        let mut counts = vec![0; self.profile().pads as usize];
+    fn next_frames(&mut self) -> Result<Vec<Packet>> {
         let begun = Instant::now();
-        while counts.iter().any(|count| *count < of_each) {
-            if begun.elapsed() > PATIENCE {
-                bail!("expected frames of each pad, the board is {}", self.session.phase().word());
-            }
-            for packet in self.poll()? {
-                counts[packet.frame.pad] += 1;
-                packets.push(packet);
+        while begun.elapsed() < PATIENCE {
+            let packets = self.poll()?;
+            if !packets.is_empty() {
+                return Ok(packets);
             }
         }
-        Ok(packets)
+        bail!("expected frames of each pad, the board is {}", self.session.phase().word())
     }
 
     fn tell(&mut self, text: &str) {

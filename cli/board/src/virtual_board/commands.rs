@@ -116,10 +116,9 @@ impl VirtualBoard {
     }
 
     pub(super) fn end_test(&mut self) {
-        let Some((at_s, line)) = self.state.test.filter(|(at_s, _)| *at_s <= self.now_s) else {
+        let Some((_, line)) = self.state.test.filter(|(at_s, _)| *at_s <= self.now_s) else {
             return;
         };
-        let _ = at_s;
         self.state.test = None;
         let bits = u32::from(self.profile.formats.adc.width);
         // Samples of a display at work are not the same 64 times.
