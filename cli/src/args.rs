@@ -5,6 +5,7 @@ use std::ops::Range;
 use std::path::PathBuf;
 
 use clap::{Parser, Subcommand, ValueEnum};
+use hapticore_board::faults::Request;
 use hapticore_run::engine::Fidelity;
 
 /// Simulate, replay and inspect the hapticore sensing core.
@@ -322,6 +323,10 @@ pub struct HostArgs {
     /// Set a key of a virtual board's scene: sensor.noise_ppm_rms=40
     #[arg(long, value_name = "KEY=VALUE", value_parser = key_value)]
     pub set: Vec<(String, String)>,
+    /// Break a virtual board: open=3 (the wire of terminal 3), swapped=1,4, pad-missing=2, line-low=5, lost=0.01, clock=1.03
+    /// and more, see docs/first-light.md; may be given several times
+    #[arg(long, value_name = "FAULT", value_parser = str::parse::<Request>)]
+    pub fault: Vec<Request>,
     /// Show the board in a browser, at the printed address with its token
     #[arg(long)]
     pub page: bool,
@@ -331,10 +336,10 @@ pub struct HostArgs {
     /// Open the page in a browser
     #[arg(long, requires = "page")]
     pub open: bool,
-    /// Print rows as CSV to standard output: the columns of frames.csv
+    /// Print rows as CSV to standard output: the columns of frames.csv, without the true ones
     #[arg(long, value_name = "-", value_parser = ["-"])]
     pub csv: Option<String>,
-    /// Write rows as CSV to a file
+    /// Write rows to a file: CSV, or MCAP with notes of the session where its name ends with .mcap
     #[arg(long, value_name = "FILE", conflicts_with = "csv")]
     pub record: Option<PathBuf>,
     /// The target force of a pad, N, as soon as the drive is armed; may be given several times

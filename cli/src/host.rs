@@ -7,10 +7,11 @@ mod wiring;
 
 use std::fs;
 use std::hash::{BuildHasher, Hasher, RandomState};
-use std::io::{self, BufWriter, Write};
+use std::io::{self, BufWriter};
 use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result, anyhow, bail, ensure};
+use hapticore_board::recording::{Csv, Mcap, Recorder};
 use hapticore_board::serve::{serve_standard, serve_tcp};
 use hapticore_board::source::Board;
 use hapticore_board::target::{Asked, Target, target};
@@ -51,8 +52,8 @@ pub fn run(args: &HostArgs) -> Result<bool> {
     for (pad, newtons) in &args.target {
         board.check_target(*pad, *newtons).map_err(|why| anyhow!("--target: {why}"))?;
     }
-    if let Some(file) = output(args)? {
-        board = board.with_csv(file).context("CSV")?;
+    if let Some(recorder) = recorder(&board, args)? {
+        board = board.with_recorder(recorder);
     }
     let mut session = Watched::new(board, args);
     match args.page {
@@ -65,6 +66,7 @@ fn asked(args: &HostArgs) -> Asked {
     Asked {
         port: args.port.clone(),
         set: args.set.clone(),
+        faults: args.fault.clone(),
         calibration: args.calibration.clone(),
         profile: args.profile.clone(),
         baud: args.baud,
@@ -76,14 +78,21 @@ fn asked(args: &HostArgs) -> Asked {
     }
 }
 
-/// Where rows go.
-fn output(args: &HostArgs) -> Result<Option<Box<dyn Write + Send>>> {
+/// What the board's rows are written to: the end of a file's name says how.
+fn recorder(board: &Board, args: &HostArgs) -> Result<Option<Box<dyn Recorder>>> {
+    let columns = board.columns();
     if args.csv.is_some() {
-        return Ok(Some(Box::new(BufWriter::new(io::stdout()))));
+        let csv = Csv::new(columns, BufWriter::new(io::stdout())).context("standard output")?;
+        return Ok(Some(Box::new(csv)));
     }
     let Some(path) = &args.record else { return Ok(None) };
-    let file = fs::File::create(path).with_context(|| format!("--record: {}", path.display()))?;
-    Ok(Some(Box::new(BufWriter::new(file))))
+    let context = || format!("--record: {}", path.display());
+    let file = BufWriter::new(fs::File::create(path).with_context(context)?);
+    let is_mcap = path.extension().is_some_and(|end| end.eq_ignore_ascii_case("mcap"));
+    Ok(Some(match is_mcap {
+        true => Box::new(Mcap::new(columns, board.pads(), file).with_context(context)?),
+        false => Box::new(Csv::new(columns, file).with_context(context)?),
+    }))
 }
 
 /// Offers a virtual board to another program.
@@ -102,7 +111,8 @@ fn serve(found: &Target, address: &str) -> Result<bool> {
 
 /// Serves the page, with a token that nobody guesses.
 fn page(watched: Watched, args: &HostArgs) -> Result<bool> {
-    let server = Server::of_board(Box::new(watched.board), args.page_port, None, token())?;
+    let board = watched.board.with_listener(|note| console::complain(format_args!("{note}")));
+    let server = Server::of_board(Box::new(board), args.page_port, None, token())?;
     let url = server.url();
     say!("{url}");
     console::flush();

@@ -10,7 +10,7 @@ use hapticore_files::AtomicFolder;
 use rayon::prelude::*;
 
 use crate::words::{is_left, is_of_words};
-use hapticore_run::columns::{Columns, OfScene, Value};
+use hapticore_run::columns::{Columns, OfScene};
 use hapticore_run::record::{Record, Row};
 
 /// Rows whose text a thread makes at a time.
@@ -121,13 +121,11 @@ impl Frames {
             .with_context(|| path.display().to_string())?;
         let columns = Columns::new(scene);
         let mut frames = Frames { file: BufWriter::new(file), path, columns };
-        frames.header().with_context(|| frames.path.display().to_string())?;
+        frames
+            .columns
+            .write_head(&mut frames.file)
+            .with_context(|| frames.path.display().to_string())?;
         Ok(frames)
-    }
-
-    fn header(&mut self) -> io::Result<()> {
-        let names: Vec<_> = self.columns.iter().map(|column| column.name.as_str()).collect();
-        writeln!(self.file, "{}", names.join(","))
     }
 
     /// Writes a row.
@@ -135,8 +133,7 @@ impl Frames {
     /// # Errors
     /// It cannot be written.
     pub fn row(&mut self, row: &Row) -> Result<()> {
-        write_row(&mut self.file, row, &self.columns)
-            .with_context(|| self.path.display().to_string())
+        self.columns.write_row(row, &mut self.file).with_context(|| self.path.display().to_string())
     }
 
     /// Writes rows, whose text all threads make.
@@ -147,7 +144,7 @@ impl Frames {
         let columns = &self.columns;
         let text = |rows: &[Row]| {
             let mut text = Vec::new();
-            rows.iter().try_for_each(|row| write_row(&mut text, row, columns)).map(|()| text)
+            rows.iter().try_for_each(|row| columns.write_row(row, &mut text)).map(|()| text)
         };
         for rows in rows.chunks(AT_A_TIME * rayon::current_num_threads()) {
             let texts: io::Result<Vec<_>> = rows.par_chunks(AT_A_TIME).map(text).collect();
@@ -164,29 +161,6 @@ impl Frames {
     /// It cannot be written.
     pub fn finish(mut self) -> Result<()> {
         self.file.flush().with_context(|| self.path.display().to_string())
-    }
-}
-
-fn write_row(file: &mut impl Write, row: &Row, columns: &Columns) -> io::Result<()> {
-    for (index, column) in columns.iter().enumerate() {
-        if index > 0 {
-            write!(file, ",")?;
-        }
-        match columns.value(column, row) {
-            Value::Number(number) => write!(file, "{number}")?,
-            Value::Index(index) => write!(file, "{index}")?,
-            Value::Flag(flag) => write!(file, "{}", u8::from(flag))?,
-            Value::Text(text) => write!(file, "{}", field(text))?,
-        }
-    }
-    writeln!(file)
-}
-
-/// A text as a field of CSV.
-fn field(text: &str) -> String {
-    match text.contains([',', '"', '\n', '\r']) {
-        true => format!("\"{}\"", text.replace('"', "\"\"")),
-        false => text.into(),
     }
 }
 

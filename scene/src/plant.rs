@@ -186,6 +186,25 @@ impl Plant {
         Plant::of_case((**case).clone(), self.seed, self.index, &self.timing).map(Some)
     }
 
+    /// The same, which stays at the first point of its sweep, where it has one: for a device that a user has before them.
+    ///
+    /// ```
+    /// # use hapticore_scene::{Plant, Scene, Timing};
+    /// # let timing = Timing {
+    /// #     pads: 4, slot_samples: 1700, window_start: 700, window_samples: 1000, samples_per_period: 10.0, signs: None,
+    /// # };
+    /// let text = "title = \"t\"\n[[pad]]\nposition_mm = [0, 0]\ncapacitance_pf = { sweep = [100, 200] }\n";
+    /// let mut plant = Plant::new(&Scene::parse(text, "t.toml", &[])?, 0, &timing)?.at_first_point();
+    /// assert_eq!([0, 1, 2].map(|slot| plant.truth(slot).capacitance_pf), [100.0; 3]);
+    /// # Ok::<(), hapticore_scene::SceneError>(())
+    /// ```
+    pub fn at_first_point(mut self) -> Plant {
+        if matches!(self.case.length, Length::Sweep { .. }) {
+            self.case.length = Length::Time { duration_s: f64::INFINITY };
+        }
+        self
+    }
+
     /// Whether a sheet divides the currents; without one only those of the corners flow.
     pub fn has_sheet(&self) -> bool {
         self.case.effects().iter().any(|(effect, _)| SPLITTING.contains(effect))

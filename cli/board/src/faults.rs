@@ -7,6 +7,10 @@
 
 use fastrand::Rng;
 
+mod request;
+
+pub use request::Request;
+
 /// A fault of a wire, a pad or a data line. Channels count the terminals, then the sensing and the haptic voltage.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Wrong {

@@ -10,13 +10,15 @@
 //! | [`faults`] | what is wrong with a virtual board: wires, ADC lines, its serial line |
 //! | [`virtual_line`] | a virtual board in real time, as a line within this process |
 //! | [`serve`] | the same for another program, over TCP or on standard input and output |
-//! | [`source`] | a board as what a live page shows and drives, or as CSV |
+//! | [`recording`] | a board's rows as CSV or MCAP |
+//! | [`source`] | a board as what a live page shows and drives |
 //! | [`target`](mod@target) | which board a command line means, and what it is brought up with |
 
 pub mod bench;
 pub mod check;
 pub mod faults;
 pub mod guide;
+pub mod recording;
 pub mod serve;
 pub mod source;
 pub mod target;

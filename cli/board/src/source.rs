@@ -2,7 +2,7 @@
 //! A board as what a live page shows and drives: measured columns only.
 //!
 //! ```text
-//! Session ─ frames ─ Readout ─ rows ─┬─ CSV
+//! Session ─ frames ─ Readout ─ rows ─┬─ Recorder
 //!    ↑                               └─ Pads ─ page
 //!    └─ arm, disable, target, wall ─ commands of clients
 //! ```
@@ -12,16 +12,18 @@ mod hello;
 mod rows;
 
 use std::collections::VecDeque;
-use std::io::Write;
+use std::io;
 
 use hapticore_host::link::{Phase, Session, SessionEvent, Statistics};
-use hapticore_host::{COLUMNS as CSV_COLUMNS, DeviceCalibration, Readout, SlotClock};
+use hapticore_host::{DeviceCalibration, Readout, SlotClock};
 use hapticore_live::pads::{Pads, Surface};
 use hapticore_live::protocol::{
     Command, Frames, Hello, LineStatus, Recorded, Recording, Setting, SlotCodes, State,
 };
 use hapticore_live::source::{Source, Step};
+use hapticore_run::columns::Columns;
 
+use crate::recording::Recorder;
 use crate::target::Target;
 use crate::virtual_line::Running;
 use hello::hello;
@@ -31,8 +33,8 @@ const TICK_S: f64 = 0.004;
 /// Without a frame for this long a pad's values are not shown as present, s.
 const OLD_S: f64 = 1.0;
 
-/// Where rows are written as CSV.
-type Csv = Box<dyn Write + Send>;
+/// Receives notes.
+type Listener = Box<dyn FnMut(&str) + Send>;
 
 /// A board with its session.
 pub struct Board {
@@ -52,9 +54,11 @@ pub struct Board {
     rows: usize,
     inputs: usize,
     queue: VecDeque<SessionEvent>,
-    csv: Option<Csv>,
-    /// Why rows are no longer written.
-    csv_error: Option<String>,
+    recorder: Option<Box<dyn Recorder>>,
+    /// Why nothing is recorded any more.
+    record_error: Option<io::Error>,
+    /// Is told every note.
+    listener: Option<Listener>,
 }
 
 impl Board {
@@ -86,19 +90,32 @@ impl Board {
             rows: 0,
             inputs: 0,
             queue: VecDeque::new(),
-            csv: None,
-            csv_error: None,
+            recorder: None,
+            record_error: None,
+            listener: None,
         }
     }
 
-    /// The same, which writes each row as CSV, the columns of `frames.csv`.
-    ///
-    /// # Errors
-    /// A file that cannot be written.
-    pub fn with_csv(mut self, mut csv: Csv) -> std::io::Result<Board> {
-        writeln!(csv, "{}", CSV_COLUMNS.join(","))?;
-        self.csv = Some(csv);
-        Ok(self)
+    /// The same, whose rows and notes are recorded.
+    pub fn with_recorder(mut self, recorder: Box<dyn Recorder>) -> Board {
+        self.recorder = Some(recorder);
+        self
+    }
+
+    /// The same, which passes on each note: for a console beside a page.
+    pub fn with_listener(mut self, listener: impl FnMut(&str) + Send + 'static) -> Board {
+        self.listener = Some(Box::new(listener));
+        self
+    }
+
+    /// Columns of its rows.
+    pub fn columns(&self) -> Columns {
+        Columns::of_board(self.session.plan().output.is_some(), !self.walls.is_empty())
+    }
+
+    /// How many pads the board serves.
+    pub fn pads(&self) -> usize {
+        self.session.plan().profile.pads as usize
     }
 
     /// Where it is.
@@ -111,9 +128,9 @@ impl Board {
         self.session.statistics()
     }
 
-    /// Why rows are no longer written, where that is so.
-    pub fn csv_error(&self) -> Option<&str> {
-        self.csv_error.as_deref()
+    /// Why nothing is recorded any more, where that is so.
+    pub fn record_error(&self) -> Option<&io::Error> {
+        self.record_error.as_ref()
     }
 }
 
@@ -159,19 +176,23 @@ impl Source for Board {
             let queue = &mut self.queue;
             self.session.poll(|event| queue.push_back(event));
             if self.queue.is_empty() {
-                self.flush();
+                self.flush_record();
             }
         }
         let mut step = Step::default();
         match self.queue.pop_front() {
             Some(SessionEvent::Frame(packet)) => {
                 let row = self.row(&packet);
-                self.write(&row);
+                self.record_row(&row);
                 step.event = self.pads.add(&row, &self.walls);
                 self.rows += 1;
                 step.row = Some((self.rows - 1, row));
             }
-            Some(SessionEvent::Note(note)) => step.note = Some(note),
+            Some(SessionEvent::Note(note)) => {
+                self.record_note(&note);
+                self.listener.iter_mut().for_each(|listener| listener(&note));
+                step.note = Some(note);
+            }
             Some(SessionEvent::Phase(Phase::Measuring)) => self.begin(),
             Some(SessionEvent::Phase(_)) | None => (),
         }

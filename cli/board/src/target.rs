@@ -20,6 +20,7 @@ use hapticore_run::case::Case;
 use hapticore_run::inputs;
 use hapticore_run::tuning_file::TuningFile;
 
+use crate::faults::Request;
 use crate::virtual_board::{Made, VirtualBoard};
 use crate::virtual_line::Running;
 
@@ -39,6 +40,8 @@ pub struct Asked {
     pub port: String,
     /// Keys of a virtual board's scene.
     pub set: Vec<(String, String)>,
+    /// What is wrong with a virtual board.
+    pub faults: Vec<Request>,
     /// The device's calibration.
     pub calibration: Option<PathBuf>,
     /// The profile that the board was printed for.
@@ -142,6 +145,7 @@ fn virtual_board(asked: &Asked) -> Result<Target> {
         rail_v: case.plan().map(|plan| plan.rail_v),
     };
     let running = Running::new(&asked.port, board);
+    asked.faults.iter().try_for_each(|fault| fault.act(&running)).context("--fault")?;
     let profile = (*case.profile).clone();
     let plan = plan(&device, profile, (made.output, tuning), made.baud)?;
     Ok(Target { line: Box::new(running.clone()), plan, device, described, running: Some(running) })
@@ -162,6 +166,12 @@ fn made(case: &Case, baud: Option<u32>) -> Made {
 
 fn real_board(asked: &Asked) -> Result<Target> {
     ensure!(asked.set.is_empty(), "--set: expected none: only virtual boards have a scene");
+    let baud = asked.baud.unwrap_or(BAUD);
+    let line = line(&asked.port, baud).map_err(anyhow::Error::msg)?;
+    ensure!(
+        asked.faults.is_empty(),
+        "--fault: expected none: only virtual boards break on request"
+    );
     let Some(file) = &asked.calibration else {
         bail!("--calibration: expected the device's calibration, as hapticore calibrate writes it");
     };
@@ -177,9 +187,7 @@ fn real_board(asked: &Asked) -> Result<Target> {
         Some(file) => Some(TuningFile::read(file, &profile)?.tuning()),
         None => None,
     };
-    let baud = asked.baud.unwrap_or(BAUD);
     let described = described(&asked.port, &device, output.as_ref(), tuning.as_ref());
-    let line = line(&asked.port, baud).map_err(anyhow::Error::msg)?;
     let plan = plan(&device, profile, (output, tuning), baud)?;
     Ok(Target { line, plan, device, described, running: None })
 }

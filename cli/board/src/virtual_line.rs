@@ -2,13 +2,13 @@
 //! A virtual board in real time, as a line within this process.
 //!
 //! What the host writes waits in a box of its own, from which the board takes it as it runs: a writer that waited for a board
-//! behind its time would be silent for too long.
+//! behind its time would be silent for too long. For the same reason the board pauses for whoever acts on it.
 //!
 //! Device time is wall time, times a factor for a clock that is off. A machine that is too slow leaves time out, so that
 //! what comes is late and never wrong.
 
 use std::io::{self, Read, Write};
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard};
 use std::thread;
 use std::time::{Duration, Instant};
@@ -23,6 +23,8 @@ use crate::virtual_board::VirtualBoard;
 const WAIT: Duration = Duration::from_millis(20);
 /// How often it looks meanwhile.
 const PAUSE: Duration = Duration::from_millis(1);
+/// How long the reader leaves the board to who acts on it.
+const YIELD: Duration = Duration::from_micros(50);
 /// A board that is further behind leaves time out, s.
 const BEHIND_S: f64 = 0.05;
 /// How long it runs until it looks for what was written, s.
@@ -42,11 +44,17 @@ struct Written {
     /// Counts ends of the line, so that the ends of an earlier one are dead.
     line: AtomicU64,
     bytes: Mutex<Vec<u8>>,
+    /// How many wait to act on the board: the lock alone would leave it to the line's reader.
+    acting: AtomicUsize,
 }
 
 impl Written {
     fn line(&self) -> u64 {
         self.line.load(Ordering::SeqCst)
+    }
+
+    fn is_acted_on(&self) -> bool {
+        self.acting.load(Ordering::SeqCst) > 0
     }
 
     fn bytes(&self) -> MutexGuard<'_, Vec<u8>> {
@@ -94,7 +102,7 @@ impl Running {
 
     /// Acts on the board between two slots.
     pub fn with<T>(&self, act: impl FnOnce(&mut VirtualBoard) -> T) -> T {
-        act(&mut self.lock().board)
+        act(&mut self.acting().board)
     }
 
     /// Changes what is wrong with it.
@@ -115,7 +123,7 @@ impl Running {
 
     /// Device time by wall time from now on: 1.03 is a clock that is 3 % fast.
     pub fn set_speed(&self, speed: f64) {
-        let mut shared = self.lock();
+        let mut shared = self.acting();
         let _ = shared.catch_up();
         (shared.from_s, shared.begun, shared.speed) = (shared.board.now_s(), Instant::now(), speed);
         shared.skipped_s = 0.0;
@@ -123,7 +131,7 @@ impl Running {
 
     /// Unplugs the line, or plugs it in again.
     pub fn unplug(&self, unplugged: bool) {
-        let mut shared = self.lock();
+        let mut shared = self.acting();
         shared.unplugged = unplugged;
         self.written.end_line();
     }
@@ -131,6 +139,14 @@ impl Running {
     /// Presses the board's reset button.
     pub fn reboot(&self) {
         self.with(VirtualBoard::reboot);
+    }
+
+    /// The board, which pauses.
+    fn acting(&self) -> MutexGuard<'_, Shared> {
+        self.written.acting.fetch_add(1, Ordering::SeqCst);
+        let shared = self.lock();
+        self.written.acting.fetch_sub(1, Ordering::SeqCst);
+        shared
     }
 
     fn lock(&self) -> MutexGuard<'_, Shared> {
@@ -141,6 +157,9 @@ impl Running {
 
     /// The board's bytes up to now; none where the line that was `line` has ended.
     fn read(&self, line: u64) -> io::Result<Option<Vec<u8>>> {
+        while self.written.is_acted_on() {
+            thread::sleep(YIELD);
+        }
         let mut shared = self.lock();
         if shared.unplugged || self.written.line() != line {
             return Ok(None);
@@ -165,7 +184,7 @@ impl Shared {
         let due_s = self.from_s + self.speed * self.begun.elapsed().as_secs_f64() - self.skipped_s;
         let until_s = due_s.min(self.board.now_s() + BEHIND_S);
         self.skipped_s += due_s - until_s;
-        while self.board.now_s() < until_s {
+        while self.board.now_s() < until_s && !self.written.is_acted_on() {
             let next_s = until_s.min(self.board.now_s() + CHUNK_S);
             self.board.advance(next_s).map_err(|error| {
                 let why = format!("the virtual board has stopped: {error:#}");

@@ -10,6 +10,7 @@ use hapticore_board::check::{Finding, Report, check};
 use hapticore_board::faults::Wrong;
 use hapticore_board::target::{Asked, virtual_device};
 use hapticore_host::DeviceCalibration;
+use hapticore_scene::gallery;
 
 /// Six terminals and four pads; four pads in halves with a drive; ten terminals on a sheet that is not uniform.
 const DEVICES: [&str; 3] = ["hockey", "peg", "non-uniform-sheet"];
@@ -155,9 +156,13 @@ fn pairs_of_faults_are_named_one_step_at_a_time() {
 
 #[test]
 fn nothing_is_named_in_sound_boards() {
-    for scene in DEVICES {
+    let others = gallery::all().iter().map(|(name, _)| *name);
+    let others = others.filter(|name| !DEVICES.contains(name));
+    for (scene, seeds) in
+        DEVICES.map(|scene| (scene, 5)).into_iter().chain(others.map(|name| (name, 1)))
+    {
         let device = device(scene);
-        for seed in 0..7 {
+        for seed in 0..seeds {
             let asked = Asked {
                 port: format!("virtual:{scene}"),
                 set: vec![("seed".into(), seed.to_string())],

@@ -137,9 +137,11 @@ impl Guard {
         if !head.origin.as_deref().is_none_or(same) {
             return forbidden("Origin: expected this server's own page, or none".into());
         }
-        if head.path == "/ws" && !self.has_token(&head.query) {
+        // Without it the page could only try in vain.
+        if ["/", "/ws"].contains(&head.path.as_str()) && !self.has_token(&head.query) {
             return forbidden(
-                "token: expected the one in the address that hapticore has printed".into(),
+                "token: expected the whole address that hapticore has printed, with ?token=…"
+                    .into(),
             );
         }
         Ok(())

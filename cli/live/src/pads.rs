@@ -137,8 +137,13 @@ impl Pads {
         let measured = [row.x_mm, row.y_mm, row.force_n, row.capacitance_pf];
         // Where walls are off, a pad with a target of its own is in none.
         let has_wall = walls.iter().any(|wall| wall.mm.is_some());
-        let brakes =
-            |driven: &Driven| has_wall && driven.free == Some(false) && driven.target_n > 0.0;
+        // A board says what it drives, not the force that the wall asks for.
+        let is_within = row.depth_mm.is_some_and(|mm| mm > 0.0);
+        let gives = |driven: &Driven| {
+            driven.target_n > 0.0 || last.truth.is_none() && is_within && driven.drive_v_rms > 0.0
+        };
+        let brakes = |driven: &Driven| has_wall && driven.free == Some(false) && gives(driven);
+        let is_short = |driven: &Driven| driven.limited && driven.drive_v_rms > 0.0;
         let place = [row.true_x_mm, row.true_y_mm].map(|mm| mm.unwrap_or(f64::NAN));
         let hand_n = [row.hand_x_n, row.hand_y_n].map(|force_n| force_n.unwrap_or(0.0));
         let around: Vec<&Surface> =
@@ -148,6 +153,8 @@ impl Pads {
             not_finite: measured.iter().any(|value| !value.is_some_and(f64::is_finite)),
             fault: last.driven.is_some_and(|driven| driven.fault),
             braked: last.driven.as_ref().is_some_and(brakes),
+            // Rows of a run have flags for it.
+            limited: last.truth.is_none() && last.driven.as_ref().is_some_and(is_short),
             // In a corner the other wall may rightly brake.
             pulled_out: !around.is_empty() && around.iter().all(pulls),
         }

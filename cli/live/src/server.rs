@@ -63,7 +63,7 @@ impl Server {
     pub fn bind(config: Config) -> Result<Server> {
         let Config { opening, port, listen, speed } = config;
         let address = listen.as_ref().map(|(address, _)| *address);
-        let listeners = listeners(port, address)?;
+        let listeners = listeners(port, address, "--port")?;
         let port = listeners[0].local_addr()?.port();
         let setup = Setup::new(&opening);
         let source = setup.source(&opening).map_err(|message| anyhow!(message))?;
@@ -82,7 +82,7 @@ impl Server {
         listen: Option<IpAddr>,
         token: String,
     ) -> Result<Server> {
-        let listeners = listeners(port, listen)?;
+        let listeners = listeners(port, listen, "--page-port")?;
         let port = listeners[0].local_addr()?.port();
         let hub = Hub::new(Setup::fixed(), Opening::default(), source, 1.0);
         Ok(Server::with(listeners, hub, Guard { port, listen, token: Some(token) }))

@@ -44,6 +44,8 @@ pub struct Signs {
     pub fault: bool,
     /// The wall brakes the pad.
     pub braked: bool,
+    /// The drive is at its rail, and the force short of its target.
+    pub limited: bool,
     /// Meanwhile the hand pulls it outwards.
     pub pulled_out: bool,
 }
@@ -79,7 +81,7 @@ impl Watch {
             (signs.fault, State::Fault),
             (has(&["lifted"]), State::Lifted),
             (sticks, State::Sticking),
-            (has(&["at_rail", "at_curve", "at_slew"]), State::Limited),
+            (signs.limited || has(&["at_rail", "at_curve", "at_slew"]), State::Limited),
             (has(&["swings"]), State::Noisy),
             (signs.braked, State::InWall),
         ];

@@ -4,9 +4,12 @@
 //! | rows of | have |
 //! | --- | --- |
 //! | a capture | time, pad, quantities as measured, flags |
+//! | a board | besides, where it drives, target and drive; where it has walls, whether the user leaves the wall |
 //! | a scene | besides, quantities as they are (`true_…`), case, point of the sweep, load, friction, swept settings |
 //! | a scene with a controller | besides, target and drive |
 //! | a scene with walls | besides, whether the user leaves the wall, force of the hand, friction of the haptic force |
+
+use std::io::{self, Write};
 
 use hapticore_host::{COLUMNS, QUANTITIES};
 
@@ -89,9 +92,18 @@ impl Columns {
         columns.measured();
         if let Some(scene) = scene {
             columns.truth(&scene.swept);
-            columns.driven(scene.driven, scene.walled);
+            columns.driven(scene.driven);
+            columns.walled(scene.walled);
             columns.cases = scene.cases;
         }
+        columns
+    }
+
+    /// Those of a board's rows: as measured, and what drives them.
+    pub fn of_board(driven: bool, walled: bool) -> Columns {
+        let mut columns = Columns::new(None);
+        columns.driven(driven);
+        columns.released(walled);
         columns
     }
 
@@ -137,6 +149,34 @@ impl Columns {
         }
     }
 
+    /// Writes the names as a line of CSV.
+    ///
+    /// # Errors
+    /// A file or a pipe that takes no more.
+    pub fn write_head(&self, to: &mut impl Write) -> io::Result<()> {
+        let names: Vec<_> = self.columns.iter().map(|column| column.name.as_str()).collect();
+        writeln!(to, "{}", names.join(","))
+    }
+
+    /// Writes a row as a line of CSV.
+    ///
+    /// # Errors
+    /// A file or a pipe that takes no more.
+    pub fn write_row(&self, row: &Row, to: &mut impl Write) -> io::Result<()> {
+        for (index, column) in self.columns.iter().enumerate() {
+            if index > 0 {
+                write!(to, ",")?;
+            }
+            match self.value(column, row) {
+                Value::Number(number) => write!(to, "{number}")?,
+                Value::Index(index) => write!(to, "{index}")?,
+                Value::Flag(flag) => write!(to, "{}", u8::from(flag))?,
+                Value::Text(text) => write!(to, "{}", field(text))?,
+            }
+        }
+        writeln!(to)
+    }
+
     fn add(&mut self, name: impl Into<String>, of: Of) {
         self.columns.push(Column { name: name.into(), of });
     }
@@ -164,18 +204,35 @@ impl Columns {
         self.add("true_touching", Of::TrueFlag(|truth| truth.touching));
     }
 
-    fn driven(&mut self, driven: bool, walled: bool) {
+    fn driven(&mut self, driven: bool) {
         if driven {
             self.add("target_n", Of::Driven(|driven| driven.target_n));
             self.add("drive_v_rms", Of::Driven(|driven| driven.drive_v_rms));
             self.add("drive_limited", Of::DrivenFlag(|driven| driven.limited));
             self.add("drive_fault", Of::DrivenFlag(|driven| driven.fault));
         }
+    }
+
+    fn released(&mut self, walled: bool) {
         if walled {
             self.add("released", Of::DrivenFlag(|driven| driven.free.unwrap_or_default()));
+        }
+    }
+
+    fn walled(&mut self, walled: bool) {
+        self.released(walled);
+        if walled {
             self.add("true_hand_x_n", Of::Truth(|truth| truth.hand_x_n));
             self.add("true_haptic_friction_n", Of::Truth(|truth| truth.haptic_friction_n));
         }
+    }
+}
+
+/// A text as a field of CSV.
+fn field(text: &str) -> String {
+    match text.contains([',', '"', '\n', '\r']) {
+        true => format!("\"{}\"", text.replace('"', "\"\"")),
+        false => text.into(),
     }
 }
 
@@ -190,6 +247,15 @@ mod tests {
     #[test]
     fn rows_of_a_capture_have_the_columns_of_a_frame() {
         assert_eq!(names(&Columns::new(None)), COLUMNS);
+    }
+
+    #[test]
+    fn rows_of_a_board_have_no_truth() {
+        let columns = Columns::of_board(true, true);
+        let names = names(&columns);
+        assert_eq!(names[..COLUMNS.len()], COLUMNS);
+        let driven = ["target_n", "drive_v_rms", "drive_limited", "drive_fault", "released"];
+        assert_eq!(names[COLUMNS.len()..], driven);
     }
 
     #[test]

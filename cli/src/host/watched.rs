@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A board without a page: rows to files, its state on the console.
 
+use std::io::ErrorKind;
 use std::thread;
 use std::time::{Duration, Instant};
 
-use anyhow::{Result, anyhow, bail, ensure};
+use anyhow::{Result, anyhow, bail};
 use hapticore_board::source::Board;
 use hapticore_host::link::Phase;
 use hapticore_live::protocol::{Command, Frames};
@@ -28,6 +29,7 @@ pub(super) struct Watched<'a> {
     begun: Instant,
     measuring_since: Option<Instant>,
     wants_arm: bool,
+    is_over: bool,
     printed: Instant,
 }
 
@@ -40,6 +42,7 @@ impl<'a> Watched<'a> {
             begun: now,
             measuring_since: None,
             wants_arm: args.arm,
+            is_over: false,
             printed: now,
         }
     }
@@ -72,10 +75,12 @@ impl<'a> Watched<'a> {
                 event.time_s, event.pad, event.what
             ));
         }
-        if let Some(why) = self.board.csv_error() {
+        match self.board.record_error() {
             // A reader that has gone wants no more.
-            ensure!(self.args.csv.is_some(), "--record: {why}");
-            bail!("standard output: {why}");
+            Some(error) if error.kind() == ErrorKind::BrokenPipe => self.is_over = true,
+            Some(error) if self.args.csv.is_some() => bail!("standard output: {error}"),
+            Some(error) => bail!("--record: {error}"),
+            None => (),
         }
         let is_measuring = matches!(self.board.phase(), Phase::Measuring | Phase::Armed);
         if is_measuring && self.measuring_since.is_none() {
@@ -99,6 +104,9 @@ impl<'a> Watched<'a> {
 
     /// Whether it is over, and how.
     fn outcome(&self) -> Option<bool> {
+        if self.is_over {
+            return Some(true);
+        }
         if interrupt::check().is_err() {
             return Some(self.measuring_since.is_some());
         }
@@ -112,7 +120,8 @@ impl<'a> Watched<'a> {
     /// A line with state, losses and pads, on standard error where rows go to standard output.
     fn print_state(&self) {
         let counts = self.board.statistics();
-        let pads: Vec<_> = pads(&self.board.frames());
+        let is_measuring = matches!(self.board.phase(), Phase::Measuring | Phase::Armed);
+        let pads = if is_measuring { pads(&self.board.frames()) } else { Vec::new() };
         let line = format!(
             "{}: {} frames, {} lost, {} dropped, {} damaged{}{}",
             self.board.phase().word(),

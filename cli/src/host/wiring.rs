@@ -14,6 +14,9 @@ use hapticore_run::{capture, interrupt};
 
 use crate::{console, say};
 
+/// Ratios of a device that is as its calibration differ by less.
+const DEPARTURE: f64 = 0.02;
+
 /// Checks the wiring; whether nothing was found.
 pub(super) fn check_wiring(found: Target) -> Result<bool> {
     let device = found.device.clone();
@@ -22,7 +25,15 @@ pub(super) fn check_wiring(found: Target) -> Result<bool> {
     report.compared.iter().for_each(|compared| say!("{compared}"));
     report.findings.iter().for_each(|finding| say!("found: {finding}"));
     if report.is_sound() {
-        say!("nothing is wrong: data lines, wires and pads are as the calibration expects");
+        let departure = report.largest_departure();
+        say!(
+            "nothing is wrong with data lines, wires and pads; ratios differ from the calibration's by {departure:.3} at most"
+        );
+        if departure > DEPARTURE {
+            console::warn(&format!(
+                "a device like its calibration differs by less than {DEPARTURE}: --calibrate corrects a calibration"
+            ));
+        }
     }
     Ok(report.is_sound())
 }

@@ -49,11 +49,19 @@ const WRITE: Duration = Duration::from_secs(1);
 /// assert_eq!(line("tcp:127.0.0.1:4000", 1_000_000)?.name(), "tcp:127.0.0.1:4000");
 /// assert_eq!(line("/dev/ttyUSB1", 1_000_000)?.name(), "/dev/ttyUSB1");
 /// assert!(line("tcp:nowhere", 1_000_000).is_err(), "no port");
+/// assert!(line("ttyUSB1", 1_000_000).is_err(), "no path");
 /// # Ok::<(), String>(())
 /// ```
 pub fn line(name: &str, baud: u32) -> Result<Box<dyn Line>, String> {
     let Some(address) = name.strip_prefix("tcp:") else {
-        return Ok(Box::new(SerialPort { path: name.into(), baud }));
+        let is_path = name.contains(['/', '\\']) || name.starts_with("COM");
+        return match is_path {
+            true => Ok(Box::new(SerialPort { path: name.into(), baud })),
+            false => Err(format!(
+                "port: expected the path of a serial port, tcp:ADDRESS:PORT, virtual or virtual:SCENE, got {name:?}; \
+                 hapticore host list lists them"
+            )),
+        };
     };
     let port = address.rsplit_once(':').and_then(|(_, port)| port.parse::<u16>().ok());
     match port {
@@ -82,7 +90,14 @@ impl Line for Tcp {
                 Err(error) => last = error,
             }
         }
-        Err(last)
+        Err(match last.kind() {
+            io::ErrorKind::ConnectionRefused => {
+                let cure =
+                    "nothing listens there: start ser2net or hapticore host virtual --serve first";
+                io::Error::new(last.kind(), cure)
+            }
+            _ => last,
+        })
     }
 }
 
@@ -112,7 +127,7 @@ impl Line for SerialPort {
     }
 
     fn open(&mut self) -> io::Result<Ends> {
-        let file = open_path(&self.path)?;
+        let file = open_path(&self.path).map_err(cure)?;
         // All bytes as they come, eight bits, no modem lines.
         let setup = ["raw", "-echo", "cs8", "-parenb", "-cstopb", "clocal", "-crtscts", "-ixon"];
         let output = Command::new("stty")
@@ -131,6 +146,21 @@ impl Line for SerialPort {
         }
         Ok(Ends { reader: Box::new(file.try_clone()?), writer: Box::new(Patient(file)) })
     }
+}
+
+/// What to do about a port that cannot be opened.
+fn cure(error: io::Error) -> io::Error {
+    let cure = match error.kind() {
+        io::ErrorKind::NotFound => {
+            "no such port, is it plugged in? hapticore host list lists those that are"
+        }
+        io::ErrorKind::PermissionDenied => {
+            "permission denied: on Linux, add yourself to the port's group, such as dialout"
+        }
+        io::ErrorKind::ResourceBusy => "another program has it open",
+        _ => return error,
+    };
+    io::Error::new(error.kind(), cure)
 }
 
 /// Opens a device file that neither waits for a modem nor becomes this process's terminal.

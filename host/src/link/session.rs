@@ -113,6 +113,8 @@ fn refuse<T>(words: impl Into<String>) -> Result<T, Refusal> {
     Err(Refusal(words.into()))
 }
 
+/// Frames from which the share of dropped ones is judged.
+const FEW_FRAMES: u64 = 200;
 /// How long after `ENABLE` heartbeats may still come.
 const IN_FLIGHT: Duration = Duration::from_millis(500);
 /// What a serial adapter may keep bytes for, beside their time on the line.
@@ -144,6 +146,8 @@ pub struct Session {
     since_armed: Instant,
     /// A frame without faults has come since the drive was armed.
     was_clear: bool,
+    /// The user knows that the line is too slow.
+    has_said_dropped: bool,
 }
 
 impl Session {
@@ -167,6 +171,7 @@ impl Session {
             spoke_at: now,
             since_armed: now,
             was_clear: false,
+            has_said_dropped: false,
             plan,
         }
     }
@@ -204,6 +209,11 @@ impl Session {
     /// Data lines that have failed in the last start-up.
     pub fn line_faults(&self) -> &[(u8, LineFault)] {
         self.bring_up.line_faults()
+    }
+
+    /// Whether the drive follows its targets: it is armed, and the faults that arming clears are gone.
+    pub fn drives(&self) -> bool {
+        self.phase == Phase::Armed && self.was_clear
     }
 
     /// Moves on, and reports what has happened since. Never waits for the board.
@@ -293,7 +303,17 @@ impl Session {
             report(SessionEvent::Note(words::faults(faults)));
             self.disarm();
         }
+        self.check_dropped(report);
         report(SessionEvent::Frame(packet));
+    }
+
+    /// Reports once that the board drops more than a few frames.
+    fn check_dropped(&mut self, report: &mut impl FnMut(SessionEvent)) {
+        let counts = self.link.statistics();
+        let are_many = counts.frames > FEW_FRAMES && 20 * counts.dropped > counts.frames;
+        if are_many && !std::mem::replace(&mut self.has_said_dropped, true) {
+            report(SessionEvent::Note(words::dropped(&counts, self.plan.baud)));
+        }
     }
 }
 

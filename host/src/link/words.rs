@@ -26,6 +26,16 @@ pub(super) fn faults(faults: Faults) -> String {
     format!("fault: {}; drives are off until they are armed again", named.join("; "))
 }
 
+/// Why frames do not come.
+pub(super) fn dropped(counts: &Statistics, baud: u32) -> String {
+    format!(
+        "the board has dropped {} of {} frames: its line of {baud} baud carries no more; print it for a faster one \
+         (hapticore hdl --baud) and connect with --baud",
+        counts.dropped,
+        counts.dropped + counts.frames
+    )
+}
+
 /// Why no packet of a board that is connected can be read.
 pub(super) fn unheard(counts: &Statistics, damaged: u64, baud: u32) -> String {
     match counts.bytes {

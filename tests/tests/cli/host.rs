@@ -44,6 +44,22 @@ fn a_virtual_board_is_recorded_as_frames() {
 }
 
 #[test]
+fn a_driven_board_is_recorded_as_mcap_with_its_drive_and_notes() {
+    let folder = tempfile::tempdir().unwrap();
+    let set = "control.law=inverse";
+    let args = ["host", "virtual:fig9", "--set", set, "--target", "0=0.2", "--arm"];
+    let record = ["--record", "frames.mcap", "--seconds", "0.5"];
+    expect(folder.path(), &[&args[..], &record].concat(), 0);
+    let file = std::fs::read(folder.path().join("frames.mcap")).unwrap();
+    let magic = b"\x89MCAP0\r\n";
+    assert!(file.starts_with(magic) && file.ends_with(magic), "a whole file");
+    let text = String::from_utf8_lossy(&file);
+    for expected in ["/pad/0", "/notes", "start-up passed", "\"target_n\":0.2,"] {
+        assert!(text.contains(expected), "{expected}");
+    }
+}
+
+#[test]
 fn a_pipe_that_ends_ends_the_command() {
     let mut child = start(&["host", "virtual", "--csv", "-"]);
     let mut lines = BufReader::new(child.stdout.take().unwrap()).lines();

@@ -34,7 +34,7 @@ const PATIENCE_S: f64 = 2.0;
 impl DeviceTime {
     /// A board that has just been configured.
     pub fn new(mut board: VirtualBoard) -> Self {
-        board.switch_haptic_off();
+        board.hold_still();
         let profile = board.profile().clone();
         let parts_mm = board.plant().parts_mm().to_vec();
         let (decoder, queue) = (Decoder::new(&profile), VecDeque::new());

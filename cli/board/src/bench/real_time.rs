@@ -7,12 +7,13 @@ use std::time::{Duration, Instant};
 use anyhow::{Context, Result, bail};
 use hapticore_contract::calibration::Calibration;
 use hapticore_contract::profile::Profile;
-use hapticore_host::Packet;
 use hapticore_host::link::{Phase, Plan, Session, SessionEvent};
 use hapticore_host::startup::{AdcSetup, LineFault, StartupError};
+use hapticore_host::{Packet, SlotClock};
 
 use super::{Bench, MOVES_S, Place, SWINGS_S};
 use crate::target::Target;
+use crate::virtual_board::VirtualBoard;
 use crate::virtual_line::Running;
 
 /// How long a board may take for a start-up, and for the frames of a place.
@@ -28,6 +29,8 @@ pub struct RealTime<'a> {
     session: Session,
     parts_mm: Vec<Place>,
     running: Option<Running>,
+    /// Frames until pads that were moved have come to rest: a virtual board's time may go slower than the clock's.
+    moving: usize,
     ask: Ask<'a>,
     stop: &'a dyn Fn() -> bool,
     say: Box<dyn FnMut(&str) + 'a>,
@@ -41,14 +44,16 @@ impl<'a> RealTime<'a> {
         say: impl FnMut(&str) + 'a,
         stop: &'a dyn Fn() -> bool,
     ) -> Self {
-        let Target { line, plan, described, running, .. } = target;
+        let Target { line, plan, device, described, running } = target;
+        let slot_s = SlotClock::new(&plan.profile, device.device.sample_rate_hz, 0.0).seconds(1);
         if let Some(running) = &running {
-            running.with(|board| board.switch_haptic_off());
+            running.with(VirtualBoard::hold_still);
         }
         RealTime {
             session: Session::new(line, Plan { all_lines: true, tuning: None, ..plan }),
             parts_mm: described.parts_mm,
             running,
+            moving: ((MOVES_S + SWINGS_S) / slot_s).ceil() as usize,
             ask: Box::new(ask),
             stop,
             say: Box::new(say),
@@ -114,9 +119,9 @@ impl Bench for RealTime<'_> {
                     .with_context(|| format!("pad {pad}"))?,
             }
         }
-        let begun = Instant::now();
-        while begun.elapsed().as_secs_f64() < MOVES_S + SWINGS_S {
-            self.poll()?;
+        let mut frames = 0;
+        while frames < self.moving {
+            frames += self.next_frames()?.len();
         }
         Ok(())
     }

@@ -37,6 +37,8 @@ pub enum Finding {
         /// A terminal, or behind them the sensing voltage.
         channel: usize,
     },
+    /// Several channels are noisy.
+    AllNoisy,
     /// A channel is at full scale at ±10 V.
     Clipped {
         /// A terminal, or behind them the sensing or the haptic voltage.
@@ -82,6 +84,9 @@ impl fmt::Display for Finding {
                 "channel {}: noisy; check its shield, its ground and its amplifier",
                 channel + 1
             ),
+            Finding::AllNoisy => f.write_str(
+                "several channels are noisy: check what they share, the supply, the ground and the carrier",
+            ),
             Finding::Clipped { channel } => write!(
                 f,
                 "channel {}: clipped at ±10 V; lower its amplifier's gain",
@@ -100,7 +105,7 @@ impl fmt::Display for Finding {
                 f.write_str("no pad is measured: check the sensing voltage and its channel, and the carrier")
             }
             Finding::Unclear => f.write_str(
-                "no known fault explains the ratios below: check that the calibration is this device's, and that each pad \
+                "no known fault explains the ratios above: check that the calibration is this device's, and that each pad \
                  was where it should be",
             ),
         }
@@ -146,6 +151,15 @@ pub struct Report {
 impl Report {
     pub(super) fn of_lines(lines: &[(u8, LineFault)]) -> Self {
         Report { findings: lines.iter().map(Finding::from).collect(), compared: Vec::new() }
+    }
+
+    /// By how much ratios differ from the expected ones at most.
+    pub fn largest_departure(&self) -> f64 {
+        let of = |compared: &Compared| {
+            let of = |axis: usize| (compared.measured[axis] - compared.expected[axis]).abs();
+            of(0).max(of(1))
+        };
+        self.compared.iter().map(of).fold(0.0, f64::max)
     }
 
     /// Whether nothing is wrong.

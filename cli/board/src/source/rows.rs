@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Rows of a board: from packets, to a CSV file.
+//! Rows of a board: from packets, to a recording.
 
-use std::io::Write;
+use std::io;
 
-use hapticore_host::link::Phase;
+use hapticore_host::link::SessionEvent;
 use hapticore_host::{Packet, SlotClock};
 use hapticore_run::record::{Driven, Row};
 
 use super::Board;
+use crate::recording::Recorder;
 
 impl Board {
     pub(super) fn row(&mut self, packet: &Packet) -> Row {
@@ -28,7 +29,7 @@ impl Board {
                 drive_v_rms: full_scale_v * fraction,
                 limited: driven.low || driven.high,
                 // A board whose drive is off misses its host.
-                fault: driven.faults.any() && self.session.phase() == Phase::Armed,
+                fault: driven.faults.any() && self.session.drives(),
                 free: profile.wall.map(|_| driven.free),
                 core_n: None,
             }
@@ -46,14 +47,26 @@ impl Board {
         }
     }
 
-    pub(super) fn write(&mut self, row: &Row) {
-        let Some(csv) = &mut self.csv else { return };
-        let numbers = row.measured.values().map(|number| number.to_string());
-        let numbers: Vec<_> = numbers.into_iter().collect();
-        let written =
-            writeln!(csv, "{},{},{},{}", row.time_s, row.pad, numbers.join(","), row.flags);
-        if let Err(error) = written {
-            (self.csv, self.csv_error) = (None, Some(error.to_string()));
+    pub(super) fn record_row(&mut self, row: &Row) {
+        self.record(|recorder| recorder.row(row));
+    }
+
+    pub(super) fn record_note(&mut self, note: &str) {
+        let time_s = self.time_s;
+        self.record(|recorder| recorder.note(time_s, note));
+    }
+
+    pub(super) fn flush_record(&mut self) {
+        self.record(|recorder| recorder.flush());
+    }
+
+    /// A recorder that fails is asked no more.
+    fn record(&mut self, write: impl FnOnce(&mut dyn Recorder) -> io::Result<()>) {
+        let Some(recorder) = &mut self.recorder else { return };
+        if let Err(error) = write(recorder.as_mut()) {
+            let note = format!("the recording has ended: {error}");
+            self.queue.push_back(SessionEvent::Note(note));
+            (self.recorder, self.record_error) = (None, Some(error));
         }
     }
 
@@ -63,13 +76,5 @@ impl Board {
         let start_s = if self.base.is_some() { self.time_s } else { 0.0 };
         self.clock = SlotClock::new(&self.session.plan().profile, rate_hz, start_s);
         self.base = None;
-    }
-
-    pub(super) fn flush(&mut self) {
-        if let Some(csv) = &mut self.csv
-            && let Err(error) = csv.flush()
-        {
-            (self.csv, self.csv_error) = (None, Some(error.to_string()));
-        }
     }
 }

@@ -34,6 +34,8 @@ use self::core::Core;
 use self::state::State;
 use crate::faults::Faults;
 
+/// Inputs of the plant begin so much later than now, s: no slot has seen their time.
+const MARGIN_S: f64 = 0.01;
 /// Clocks between two heartbeats.
 const PAUSE_CLOCKS: f64 = 16_384.0;
 
@@ -70,7 +72,7 @@ pub struct VirtualBoard {
 }
 
 impl VirtualBoard {
-    /// A virtual board of case `index` of a scene, just configured. `made` receives the case and says how it is made.
+    /// A virtual board of case `index` of a scene, at the first point of its sweep, just configured. `made` receives the case and says how it is made.
     ///
     /// # Errors
     /// A case that the profile cannot serve, a calibration that it cannot represent, a scene without samples.
@@ -91,7 +93,7 @@ impl VirtualBoard {
             case.profile.pads
         );
         let like = case.calibration()?.clone();
-        let mut plant = case.plant()?;
+        let mut plant = case.plant()?.at_first_point();
         if case.plan().is_some() {
             (0..plant.served()).try_for_each(|pad| plant.set_drive(pad, 0.0, 0.0))?;
         }
@@ -156,10 +158,17 @@ impl VirtualBoard {
         }
     }
 
-    /// Takes the scene's haptic voltage to zero, where no controller drives the pads.
-    pub fn switch_haptic_off(&mut self) {
+    /// Has the scene's user hold the pads still, with its mean load and without a push, and takes the haptic voltage to
+    /// zero where no controller drives the pads.
+    pub fn hold_still(&mut self) {
+        let (from_s, load_g) = (self.now_s + MARGIN_S, self.plant().mean_load_g());
         for pad in 0..self.profile.pads as usize {
             self.set_drive(pad, self.now_s, 0.0);
+        }
+        for pad in 0..self.plant().served() / self.plant().parts() {
+            // A scene's load is within the range of loads; a pad without a hand has no push.
+            let _ = self.plant().press(pad, load_g, from_s);
+            let _ = self.plant().push(pad, [0.0; 2], from_s);
         }
     }
 

@@ -67,7 +67,9 @@ impl Session {
         }
         let cap_n = self.largest_target_n();
         if !(0.0..=cap_n).contains(&newtons) {
-            return refuse(format!("target: expected 0 to {cap_n:.3} N, got {newtons}"));
+            // Rounded down: what is printed is taken.
+            let most_n = (1e3 * cap_n).floor() / 1e3;
+            return refuse(format!("target: expected 0 to {most_n} N, got {newtons}"));
         }
         Ok(())
     }

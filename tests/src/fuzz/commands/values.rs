@@ -74,6 +74,11 @@ impl<'a> Values<'a> {
                 rng,
                 "virtual virtual virtual:fig9 virtual:hockey virtual:none list tcp:127.0.0.1:9 tcp:none /dev/null no-port",
             ),
+            ("host", "fault") => one_of(
+                rng,
+                "open=1 open=0 swapped=1,4 pad-missing=2 pads-swapped=0,3 line-low=5 line-shorted=0,1 noisy=7 lost=0.01 \
+                 clock=1.03 clock=9 flipped=x burnt=1 open=99",
+            ),
             ("host", "target") => one_of(rng, "0=0.2 0=0 0=0.05 9=0.1 0=-1 0=1e300 0=nan x"),
             ("host", "record" | "calibrate") => {
                 one(rng, &["new.csv", "nowhere/new.csv", "folder.toml"])
