@@ -17,8 +17,10 @@ use hapticore_contract::calibration::Calibration;
 use hapticore_contract::profile::Profile;
 use hapticore_protocol::{Control, Output, Register};
 
-/// Heartbeats within which a step's answer has to come.
+/// Heartbeats within which a step's answer has to come, once the board has taken the commands.
 const PATIENCE: u8 = 8;
+/// Heartbeats within which it has to take them, a tenth of a second at 1 Mbaud: some may have waited on the line since before.
+const TAKEN: u8 = 128;
 
 /// A word that reads the ADC's ID, and so enters register mode.
 const READ_ID: i64 = 0x6f00;
@@ -61,9 +63,9 @@ enum Stage {
 /// let commands = bring_up.begin(&AdcSetup::default(), 0);
 /// // The board has taken none of them.
 /// let heartbeat = Heartbeat::new(Status::default(), &profile, None);
-/// let steps: Vec<_> = (0..8).map(|_| bring_up.heartbeat(&heartbeat)).collect();
+/// let steps: Vec<_> = (0..128).map(|_| bring_up.heartbeat(&heartbeat)).collect();
 /// assert_eq!(steps[0], Ok(Step::Wait));
-/// assert!(steps[7].is_err(), "it has had its time for {} commands", commands.len());
+/// assert!(steps[127].is_err(), "it has had its time for {} commands", commands.len());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone)]
@@ -75,6 +77,8 @@ pub struct BringUp {
     before: u8,
     sent: usize,
     stage: Stage,
+    /// Heartbeats since the last commands were sent: before the board had taken them, and after.
+    untaken: u8,
     waited: u8,
     codes: Vec<Option<u64>>,
     /// Goes on behind a line that fails.
@@ -94,6 +98,7 @@ impl BringUp {
             before: 0,
             sent: 0,
             stage,
+            untaken: 0,
             waited: 0,
             codes,
             all_lines: false,
@@ -124,7 +129,7 @@ impl BringUp {
     /// reset.
     pub fn begin(&mut self, adc: &AdcSetup, before: u8) -> Vec<Command> {
         (self.before, self.sent) = (before, 0);
-        (self.stage, self.waited) = (Stage::Prepared, 0);
+        self.stage = Stage::Prepared;
         self.codes.clear();
         self.faults.clear();
         self.sending(prepare(&self.profile, &self.calibration, adc))
@@ -135,8 +140,12 @@ impl BringUp {
     /// # Errors
     /// What keeps the board from being enabled: the first thing that is not as it should be.
     pub fn heartbeat(&mut self, heartbeat: &Heartbeat) -> Result<Step, StartupError> {
-        self.waited += 1;
-        let last = self.waited >= PATIENCE;
+        let (count, most) = match self.has_taken(heartbeat) {
+            true => (&mut self.waited, PATIENCE),
+            false => (&mut self.untaken, TAKEN),
+        };
+        *count += 1;
+        let last = *count >= most;
         match self.stage {
             Stage::Prepared | Stage::Tested => match self.check(heartbeat) {
                 Err(StartupError::Commands { .. }) if !last => Ok(Step::Wait),
@@ -163,9 +172,14 @@ impl BringUp {
 
     /// The code of the line that is tested, once the board has taken the command for that.
     fn code(&self, heartbeat: &Heartbeat) -> Option<u64> {
-        let expected = (usize::from(self.before) + self.sent) % 16;
-        let taken = usize::from(heartbeat.status.commands) == expected;
+        let taken = self.has_taken(heartbeat);
         heartbeat.line_code().filter(|_| taken && !heartbeat.status.late)
+    }
+
+    /// Whether the board has taken all commands.
+    fn has_taken(&self, heartbeat: &Heartbeat) -> bool {
+        let expected = (usize::from(self.before) + self.sent) % 16;
+        usize::from(heartbeat.status.commands) == expected
     }
 
     fn first_line(&mut self) -> Step {
@@ -212,7 +226,7 @@ impl BringUp {
 
     fn sending(&mut self, commands: Vec<Command>) -> Vec<Command> {
         self.sent += commands.len();
-        self.waited = 0;
+        (self.untaken, self.waited) = (0, 0);
         commands
     }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A virtual board in real time, as a line within this process.
 //!
-//! What the host writes waits in a box of its own, from which the board takes it as it runs: a writer that waited for a board
+//! What the host writes waits in a box of its own, from which the board takes it as it runs. A writer that waited for a board
 //! behind its time would be silent for too long. For the same reason the board pauses for whoever acts on it.
 //!
 //! Device time is wall time, times a factor for a clock that is off. A machine that is too slow leaves time out, so that

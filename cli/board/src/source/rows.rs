@@ -73,8 +73,24 @@ impl Board {
     /// Frames count anew: the board was brought up.
     pub(super) fn begin(&mut self) {
         let rate_hz = self.device.device.sample_rate_hz;
-        let start_s = if self.base.is_some() { self.time_s } else { 0.0 };
-        self.clock = SlotClock::new(&self.session.plan().profile, rate_hz, start_s);
+        self.clock = SlotClock::new(&self.session.plan().profile, rate_hz, self.time_s);
         self.base = None;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::target::{Asked, target};
+
+    #[test]
+    fn time_never_goes_back_however_often_a_board_is_brought_up() {
+        let asked = Asked { port: "virtual".into(), ..Asked::default() };
+        let mut board = Board::new(target(&asked).expect("a bundled scene"), "virtual");
+        board.begin();
+        assert_eq!(board.clock.start_s(), 0.0);
+        board.time_s = 5.0;
+        (0..2).for_each(|_| board.begin());
+        assert_eq!(board.clock.start_s(), 5.0);
     }
 }

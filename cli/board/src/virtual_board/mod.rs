@@ -7,9 +7,9 @@
 //!                          plant ─ codes ─[faults]─┘       └─ drives ─ plant
 //! ```
 //!
-//! The core is fidelity `fixed`, calibrated by the words that the host has written and nothing else. Simplified against
-//! the gateware: commands are taken without the time that their bytes need, a heartbeat is never cut, a new setting of
-//! the controller makes it begin anew at 0 V, and a frame's packet begins as its slot ends.
+//! The core is fidelity `fixed`, calibrated by the words that the host has written and nothing else. It is simpler
+//! than the gateware in four ways: commands are taken without the time that their bytes need, and a heartbeat is never cut.
+//! A new setting of the controller makes it begin anew at 0 V. A frame's packet begins as its slot ends.
 
 mod commands;
 mod core;
