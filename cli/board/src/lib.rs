@@ -11,8 +11,10 @@
 //! | [`virtual_line`] | a virtual board in real time, as a line within this process |
 //! | [`serve`] | the same for another program, over TCP or on standard input and output |
 //! | [`source`] | a board as what a live page shows and drives, or as CSV |
+//! | [`background`] | a board that a thread polls, for a program that calls when it likes |
 //! | [`target`](mod@target) | which board a command line means, and what it is brought up with |
 
+pub mod background;
 pub mod bench;
 pub mod check;
 pub mod faults;

@@ -4,6 +4,7 @@
 //! | rows of | have |
 //! | --- | --- |
 //! | a capture | time, pad, quantities as measured, flags |
+//! | a board | as a capture; target and drive where it drives, whether the user leaves the wall where it has walls |
 //! | a scene | besides, quantities as they are (`true_…`), case, point of the sweep, load, friction, swept settings |
 //! | a scene with a controller | besides, target and drive |
 //! | a scene with walls | besides, whether the user leaves the wall, force of the hand, friction of the haptic force |
@@ -95,6 +96,19 @@ impl Columns {
         columns
     }
 
+    /// Those of a board's rows: as measured, and what its drive does where it has one.
+    pub fn of_board(driven: bool, walled: bool) -> Columns {
+        let mut columns = Columns { cases: Vec::new(), columns: Vec::new() };
+        columns.measured();
+        if driven {
+            columns.drive();
+        }
+        if walled {
+            columns.add("released", Of::DrivenFlag(|driven| driven.free.unwrap_or_default()));
+        }
+        columns
+    }
+
     /// The columns.
     pub fn iter(&self) -> std::slice::Iter<'_, Column> {
         self.columns.iter()
@@ -164,12 +178,16 @@ impl Columns {
         self.add("true_touching", Of::TrueFlag(|truth| truth.touching));
     }
 
+    fn drive(&mut self) {
+        self.add("target_n", Of::Driven(|driven| driven.target_n));
+        self.add("drive_v_rms", Of::Driven(|driven| driven.drive_v_rms));
+        self.add("drive_limited", Of::DrivenFlag(|driven| driven.limited));
+        self.add("drive_fault", Of::DrivenFlag(|driven| driven.fault));
+    }
+
     fn driven(&mut self, driven: bool, walled: bool) {
         if driven {
-            self.add("target_n", Of::Driven(|driven| driven.target_n));
-            self.add("drive_v_rms", Of::Driven(|driven| driven.drive_v_rms));
-            self.add("drive_limited", Of::DrivenFlag(|driven| driven.limited));
-            self.add("drive_fault", Of::DrivenFlag(|driven| driven.fault));
+            self.drive();
         }
         if walled {
             self.add("released", Of::DrivenFlag(|driven| driven.free.unwrap_or_default()));
@@ -190,6 +208,15 @@ mod tests {
     #[test]
     fn rows_of_a_capture_have_the_columns_of_a_frame() {
         assert_eq!(names(&Columns::new(None)), COLUMNS);
+    }
+
+    #[test]
+    fn rows_of_a_board_have_no_truth() {
+        assert_eq!(names(&Columns::of_board(false, false)), COLUMNS);
+        let all = Columns::of_board(true, true);
+        assert!(names(&all).iter().all(|name| !name.starts_with("true_")));
+        let of_drive = ["target_n", "drive_v_rms", "drive_limited", "drive_fault", "released"];
+        assert_eq!(names(&all)[COLUMNS.len()..], of_drive);
     }
 
     #[test]
