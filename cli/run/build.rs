@@ -5,10 +5,11 @@
 use std::process::Command;
 
 /// The crates that the command is made of, beside this one.
-const SOURCES: [&str; 8] = [
+const SOURCES: [&str; 9] = [
     "src",
     "../src",
     "../files/src",
+    "../report/src",
     "../../host",
     "../../model",
     "../../rtl/src",

@@ -3,6 +3,7 @@
 
 use std::path::PathBuf;
 
+use hapticore_report::words::{off, stability};
 use hapticore_run::findings;
 use hapticore_run::lab::Outcome;
 use hapticore_run::lab::least_squares::Estimate;
@@ -84,37 +85,6 @@ pub fn finish(record: &Record, files: &[PathBuf]) {
     files.iter().for_each(|file| say!("  {}", file.display()));
 }
 
-/// The margins of each case's loop, and what a step of it does.
-pub fn stability(record: &Record) -> impl Iterator<Item = String> {
-    let or_none = |value: Option<f64>, unit: &str| {
-        value.map_or("none".to_string(), |value| format!("{}{unit}", number(value)))
-    };
-    let gains = record.gains.iter().map(|(case, of)| {
-        format!(
-            "gains: case \"{case}\": feed_forward_v {}, proportional_v {}, integral_v {}",
-            number(of.feed_forward_v),
-            number(of.proportional_v),
-            number(of.integral_v)
-        )
-    });
-    let margins = record.stability.iter().map(move |(case, of)| {
-        let step = of.step.map_or(String::new(), |step| {
-            format!(
-                "; a step overshoots by {} % and swings over {} %",
-                number(step.overshoot_percent),
-                number(step.swing_percent)
-            )
-        });
-        format!(
-            "loop: case \"{case}\" at {} N: phase margin {}, gain margin {}{step}",
-            number(of.force_n),
-            or_none(of.phase_margin_deg, "°"),
-            or_none(of.gain_margin, "")
-        )
-    });
-    gains.chain(margins)
-}
-
 fn effects(effects: &[Effect], wall_seconds: f64) -> String {
     let row = |effect: &Effect| {
         let error =
@@ -132,11 +102,6 @@ fn effects(effects: &[Effect], wall_seconds: f64) -> String {
         ],
         &effects.iter().map(row).collect::<Vec<_>>(),
     )
-}
-
-/// The difference of a level from a finer one, percent.
-pub fn off(percent: f64, finer: &str) -> String {
-    format!("{} % from {finer}", number(percent))
 }
 
 fn criteria(criteria: &[Criterion]) -> String {

@@ -1,103 +1,43 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `hapticore tradeoff`: what accuracy costs.
 
-use anyhow::{Context, Result, ensure};
+use anyhow::{Context, Result};
 use hapticore_contract::profile::Profile;
-use hapticore_run::record::Provenance;
-use hapticore_run::{inputs, interrupt};
-use hapticore_scene::{Scene, Timing};
-use hapticore_tradeoff::cost::{self, Family};
-use hapticore_tradeoff::errors::{Error, Quantity};
-use hapticore_tradeoff::loops::{self, LoopErrors, case_of};
-use hapticore_tradeoff::model::{Model, NextBit};
-use hapticore_tradeoff::points;
-use hapticore_tradeoff::search::{Found, models, search};
-use hapticore_tradeoff::sweep::{Point, Trial};
+use hapticore_run::interrupt;
+use hapticore_tradeoff::cost::Family;
+use hapticore_tradeoff::errors::Quantity;
+use hapticore_tradeoff::loops::LoopErrors;
+use hapticore_tradeoff::model::NextBit;
+use hapticore_tradeoff::outcome::{Prepared, Request, Tradeoff};
+use hapticore_tradeoff::search::Found;
+use hapticore_tradeoff::sweep::Point;
 use hapticore_tradeoff::synthesis::{self, Synthesised, synthesise};
 use hapticore_tradeoff::target::Target;
-use serde::Serialize;
 
 use crate::args::TradeoffArgs;
 use crate::output::Output;
 use crate::print::{number, table};
 use crate::{console, progress, report, say};
 
-/// The profile where none is named.
-const PROFILE: &str = "standard";
-/// The scenes where none are: places all over the sheet, forces over load and voltage, motion.
-const SCENES: [&str; 3] = ["fig3", "fig6", "hockey"];
-
-/// All that a run leaves.
-#[derive(Debug, Serialize)]
-pub struct Tradeoff {
-    /// The profile that was varied.
-    pub profile: String,
-    /// The scenes whose slots it was tried on.
-    pub scenes: Vec<String>,
-    /// Slots of each scene.
-    pub slots: usize,
-    /// The profile itself, then each of its neighbours.
-    pub points: Vec<Point>,
-    /// The cheapest profile for a target, where there was one.
-    pub found: Option<Found>,
-    /// What one more bit would buy, of the profile that was found or else of the profile itself; where
-    /// it was asked for.
-    pub next_bits: Vec<NextBit>,
-    /// What synthesis makes of the profile, and of the profile that was found; where it was asked
-    /// for.
-    pub synthesised: Vec<Synthesised>,
-    /// Version, command and such.
-    pub provenance: Provenance,
-}
-
 /// Sweeps, searches where there is a target, and prints.
 ///
 /// # Errors
 /// No such profile or scene, a target that cannot be read, a folder that cannot be written.
 pub fn run(args: &TradeoffArgs) -> Result<bool> {
-    let profile = inputs::profile(args.profile.as_deref().unwrap_or(PROFILE))?;
-    let target =
-        args.target.as_deref().map(str::parse::<Target>).transpose().context("--target")?;
-    let (names, scenes) = scenes(&args.scene)?;
-    let profile = windowed(profile, &scenes)?;
-    let timing = Timing { signs: None, ..inputs::timing(&profile) };
-    let scenes = scenes.into_iter().map(|scene| scene.within_budget(&timing));
-    let scenes = scenes.collect::<Result<Vec<_>, _>>()?;
-    ensure!(args.slots >= 1, "--slots: expected at least 1");
+    let prepared = Prepared::new(request(args)?)?;
+    prepared.warnings.iter().for_each(|warning| console::warn(warning));
     if args.synth {
         synthesis::tools().context("--synth")?;
     }
     let output = Output::new(&args.out)?;
-    let trial = Trial::new(scenes, profile, args.slots);
-    let plan = trial.plan();
-    let bar = progress::bar(Some(plan.len() as u64), "profiles", args.json);
-    let points = trial.run(&plan, &|| bar.inc(1))?;
+    let profile = prepared.profile().clone();
+    let bar = progress::bar(Some(prepared.profiles() as u64), "profiles", args.json);
+    let points = prepared.sweep(&|| bar.inc(1))?;
     bar.finish_and_clear();
-    let family = args.family.as_deref().and_then(cost::named);
-    let family = family.unwrap_or_else(|| cost::family(trial.profile()));
-    let models = match target {
-        Some(_) => models(&trial, family, &points)?,
-        None if args.explain => vec![Model::new(trial.profile(), family, &points)],
-        None => Vec::new(),
-    };
-    let found = target.map(|target| search(&trial, &points, &models, &target)).transpose()?;
-    let of = found.as_ref().map_or(trial.profile(), |found| &found.profile);
-    let explained = models.iter().find(|model| args.explain && model.is_about(of));
-    let next_bits = explained.map(|model| model.next_bits(of)).unwrap_or_default();
-    let synthesised = match args.synth {
-        true => synthesised(trial.profile(), &points[0], found.as_ref(), args.json)?,
-        false => Vec::new(),
-    };
-    let tradeoff = Tradeoff {
-        profile: trial.profile().name.clone(),
-        scenes: names,
-        slots: args.slots,
-        points,
-        found,
-        next_bits,
-        synthesised,
-        provenance: Provenance::new(),
-    };
+    let mut tradeoff = prepared.outcome(points)?;
+    if args.synth {
+        tradeoff.synthesised = synthesised(&profile, &tradeoff, args.json)?;
+    }
     write(&output, &tradeoff)?;
     let files = output.keep()?;
     if args.json {
@@ -109,15 +49,21 @@ pub fn run(args: &TradeoffArgs) -> Result<bool> {
     Ok(tradeoff.found.as_ref().is_none_or(Found::holds))
 }
 
+fn request(args: &TradeoffArgs) -> Result<Request> {
+    Ok(Request {
+        profile: args.profile.clone(),
+        scenes: args.scene.clone(),
+        slots: args.slots,
+        target: args.target.as_deref().map(str::parse::<Target>).transpose().context("--target")?,
+        family: args.family.clone(),
+        explain: args.explain,
+    })
+}
+
 /// The profile, and the profile that was found, in the cells of both families.
-fn synthesised(
-    profile: &Profile,
-    itself: &Point,
-    found: Option<&Found>,
-    quiet: bool,
-) -> Result<Vec<Synthesised>> {
-    let mut cores = vec![(profile, &itself.cost)];
-    cores.extend(found.map(|found| (&found.profile, &found.cost)));
+fn synthesised(profile: &Profile, tradeoff: &Tradeoff, quiet: bool) -> Result<Vec<Synthesised>> {
+    let mut cores = vec![(profile, &tradeoff.points[0].cost)];
+    cores.extend(tradeoff.found.as_ref().map(|found| (&found.profile, &found.cost)));
     let bar = progress::bar(Some(cores.len() as u64), "cores synthesised", quiet);
     let mut all = Vec::new();
     for (profile, cost) in cores {
@@ -129,114 +75,14 @@ fn synthesised(
     Ok(all)
 }
 
-/// The scenes that were named, with their names. Those whose slots depend on the core show what its words
-/// change of drives and directions; where all are such, the usual ones show all else.
-fn scenes(named: &[String]) -> Result<(Vec<String>, Vec<Scene>)> {
-    let mut scenes = named.iter().map(|name| scene(name)).collect::<Result<Vec<_>>>()?;
-    let mut names = named.to_vec();
-    if scenes.iter().all(is_loop) {
-        for (n, name) in SCENES.iter().enumerate() {
-            scenes.insert(n, scene(name)?);
-            names.insert(n, name.to_string());
-        }
-    }
-    Ok((names, scenes))
-}
-
-fn is_loop(scene: &Scene) -> bool {
-    loops::is_loop(&scene.cases[case_of(scene)])
-}
-
-/// A scene whose sensors leave the rounding to the core's ADC.
-fn scene(name: &str) -> Result<Scene> {
-    let scene = inputs::scene(name, &[])?;
-    inputs::scene(name, &points::unrounded(&scene.cases[case_of(&scene)])?)
-}
-
-/// The profile with the slot that the scenes ask for, as `simulate` runs them. Where they do not all
-/// ask for the same, it keeps its own: all scenes are to try one profile.
-fn windowed(profile: Profile, scenes: &[Scene]) -> Result<Profile> {
-    let slot = |scene: &Scene| (scene.window_samples, scene.settle_samples);
-    let asking = |scene: &&Scene| slot(scene) != (None, None);
-    // Force loops are run in their own.
-    let scenes: Vec<&Scene> = scenes.iter().filter(|scene| !is_loop(scene)).collect();
-    match scenes.iter().copied().find(asking) {
-        None => Ok(profile),
-        Some(first) if scenes.iter().all(|scene| slot(scene) == slot(first)) => {
-            inputs::windowed(profile, first)
-        }
-        Some(_) => {
-            let names = scenes.iter().copied().filter(asking).map(|scene| scene.name.as_str());
-            console::warn(&format!(
-                "{}: window_samples and settle_samples are not taken, since not all scenes ask for the same; slots are those of profile {}",
-                names.collect::<Vec<_>>().join(", "),
-                profile.name
-            ));
-            Ok(profile)
-        }
-    }
-}
-
 fn write(output: &Output, tradeoff: &Tradeoff) -> Result<()> {
-    output.write("tradeoff.csv", csv(&tradeoff.points))?;
+    output.write("tradeoff.csv", tradeoff.csv())?;
     output.write("tradeoff.json", &serde_json::to_string_pretty(tradeoff)?)?;
     output.write("report.html", report::of_tradeoff(tradeoff))?;
-    if let Some(found) = &tradeoff.found {
-        output.write("profile.toml", &text_of(&found.profile)?)?;
+    if let Some(text) = tradeoff.found_profile()? {
+        output.write("profile.toml", &text)?;
     }
     Ok(())
-}
-
-fn text_of(profile: &Profile) -> Result<String> {
-    Ok(format!("# Found by hapticore tradeoff.\n{}", toml::to_string(profile)?))
-}
-
-const COLUMNS: &str = "knob,value,latency_clocks,age_us,frames_per_second,luts_ecp5,luts_ice40,flip_flops,multipliers,memory_bits,multipliers_ice40,block_rams_ecp5,block_rams_ice40,least_codes";
-
-fn csv(points: &[Point]) -> String {
-    let mut head = COLUMNS.to_string();
-    for kind in ["predicted", "measured"] {
-        for quantity in Quantity::ALL {
-            for what in ["rms", "mean", "largest"] {
-                head += &format!(",{kind}_{}_{what}", quantity.name());
-            }
-        }
-    }
-    for (name, _) in LoopErrors::QUANTITIES {
-        for what in ["rms", "mean", "largest"] {
-            head += &format!(",measured_{name}_{what}");
-        }
-    }
-    let row = |point: &Point| {
-        let cost = &point.cost;
-        let mut row = format!(
-            "{},{},{},{},{},{},{},{},{},{},{},{},{},{}",
-            point.knob,
-            point.value,
-            cost.latency_clocks,
-            cost.age_us,
-            cost.frames_per_second,
-            cost.luts.round(),
-            cost.luts_ice40.round(),
-            cost.flip_flops,
-            cost.multipliers,
-            cost.memory_bits,
-            cost.multipliers_ice40,
-            cost.block_rams,
-            cost.block_rams_ice40,
-            point.least_codes
-        );
-        for error in point.predicted.iter().chain(&point.measured) {
-            row += &format!(",{:e},{:e},{:e}", error.rms, error.mean, error.largest);
-        }
-        for error in point.looped.all() {
-            let of =
-                |error: Error| format!(",{:e},{:e},{:e}", error.rms, error.mean, error.largest);
-            row += &error.map_or(",,,".into(), of);
-        }
-        row + "\n"
-    };
-    points.iter().fold(head + "\n", |text, point| text + &row(point))
 }
 
 fn print(tradeoff: &Tradeoff) {

@@ -7,7 +7,9 @@ The same Rust code as the command ``hapticore``: results are equal to the bit.
 `simulate`, `replay`, `calibrate`   whole runs: a scene, a capture, a lab's data
 `Core`                              the core alone: slots of ADC codes in, measurements out
 `Display`                           a scene that is stepped, with inputs between slots
+`connect`                           a board, real or virtual
 `live`                              a scene in the browser
+`tradeoff`                          what accuracy costs: errors, latency and area of profiles
 `hapticore.gym`                     Gymnasium environments, registered where Gymnasium is there
 ==================================  ==========================================================
 
@@ -22,14 +24,19 @@ Examples
 """
 
 from hapticore._core import __version__, profiles, scenes
+from hapticore.board import Board, connect
 from hapticore.core import Core, Measurement
 from hapticore.display import Display
-from hapticore.errors import Error, ProfileError, SceneError
-from hapticore.frames import Frames
+from hapticore.errors import BoardError, Error, ProfileError, SceneError
+from hapticore.frames import Frames, Table
 from hapticore.page import Live, live
+from hapticore.plots import Plot
 from hapticore.runs import Calibration, Run, calibrate, replay, simulate
+from hapticore.tradeoffs import Tradeoff, tradeoff
 
 __all__ = [
+    "Board",
+    "BoardError",
     "Calibration",
     "Core",
     "Display",
@@ -37,16 +44,21 @@ __all__ = [
     "Frames",
     "Live",
     "Measurement",
+    "Plot",
     "ProfileError",
     "Run",
     "SceneError",
+    "Table",
+    "Tradeoff",
     "__version__",
     "calibrate",
+    "connect",
     "live",
     "profiles",
     "replay",
     "scenes",
     "simulate",
+    "tradeoff",
 ]
 
 

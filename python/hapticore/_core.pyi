@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
+from collections.abc import Callable
 from typing import final
 
 import numpy as np
 import numpy.typing as npt
 
 __all__ = [
+    "Link",
     "Page",
     "Rows",
     "Slots",
@@ -15,6 +17,7 @@ __all__ = [
     "replay",
     "scenes",
     "simulate",
+    "tradeoff",
 ]
 
 __version__: str
@@ -49,10 +52,22 @@ def replay(
     truncated: bool,
 ) -> tuple[Rows, str]: ...
 def calibrate(data: list[str], *, profile: str) -> tuple[str, str]: ...
+def tradeoff(
+    scenes: list[str],
+    *,
+    profile: str | None,
+    slots: int,
+    target: tuple[float | None, float | None, float | None] | None,
+    family: str | None,
+    explain: bool,
+) -> tuple[tuple[str, str, str | None], list[str]]: ...
 @final
 class Rows:
     def __len__(self) -> int: ...
     def names(self) -> list[str]: ...
+    def plot(
+        self, names: list[str], chosen: npt.NDArray[np.int64] | None
+    ) -> tuple[list[str], str, str]: ...
     def column(self, name: str) -> npt.NDArray[np.generic] | tuple[npt.NDArray[np.int64], list[str]]: ...
 
 @final
@@ -133,3 +148,49 @@ class Page:
     @property
     def url(self) -> str: ...
     def close(self) -> None: ...
+
+@final
+class Link:
+    def __new__(
+        cls,
+        port: str,
+        *,
+        set: list[tuple[str, str]],
+        faults: list[str],
+        calibration: str | None,
+        profile: str | None,
+        baud: int | None,
+        control: str | None,
+        dac: str | None,
+        wave: str | None,
+        full_scale_v: int | None,
+        tuning: str | None,
+        timeout_s: float,
+    ) -> Link: ...
+    def read(self, frames: int | None, seconds: float | None, timeout_s: float) -> Rows: ...
+    def alive(self) -> None: ...
+    def arm(self) -> None: ...
+    def disarm(self) -> None: ...
+    def target(self, pad: int, newtons: float) -> None: ...
+    def wall(self, x_mm: float | None, y_mm: float | None, off: bool) -> None: ...
+    def lead(self, pad: int, x_mm: float, y_mm: float, within_s: float) -> None: ...
+    def check(self, ask: Callable[[str], object]) -> list[str]: ...
+    def close(self) -> None: ...
+    @property
+    def phase(self) -> str: ...
+    @property
+    def identity(self) -> str | None: ...
+    @property
+    def notes(self) -> list[str]: ...
+    @property
+    def statistics(self) -> list[tuple[str, int]]: ...
+    @property
+    def title(self) -> str: ...
+    @property
+    def slot_s(self) -> float: ...
+    @property
+    def pads(self) -> list[str]: ...
+    @property
+    def parts_mm(self) -> list[tuple[float, float]]: ...
+    @property
+    def sheet_mm(self) -> tuple[float, float]: ...

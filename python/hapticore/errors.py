@@ -40,3 +40,11 @@ class SceneError(Error):
 
 class ProfileError(Error):
     """A profile that is not there, or that no core can have; the message names the field."""
+
+
+class BoardError(Error):
+    """A board that does not do what is asked; the message names cause and cure.
+
+    No line, no board behind it, a board that refuses its start-up, a drive that is off, a target
+    beyond the cap, a board that was closed.
+    """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Frames: the results of slots as NumPy arrays."""
+"""Tables of NumPy arrays; frames: the results of slots."""
 
 from __future__ import annotations
 
@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from hapticore import _core
+from hapticore.errors import Error
+from hapticore.plots import Plot
 
 if TYPE_CHECKING:
     import pandas
@@ -27,7 +29,96 @@ def unit(column: str) -> str:
     return next((unit for end, unit in _UNITS if column.endswith(end)), "")
 
 
-class Frames(Mapping[str, np.ndarray]):
+class Table(Mapping[str, np.ndarray]):
+    """A mapping from columns to arrays of one length, in their order.
+
+    ``attrs`` holds where the numbers come from, and the ``units`` of the columns. Arrays are
+    read-only.
+    """
+
+    def __init__(self, columns: Mapping[str, np.ndarray], attrs: Mapping[str, Any] | None = None) -> None:
+        self._arrays = dict(columns)
+        for array in self._arrays.values():
+            array.flags.writeable = False
+        self._origin = attrs
+
+    @cached_property
+    def attrs(self) -> dict[str, Any]:
+        """``units`` of the columns, and where the numbers come from."""
+        units = {name: unit(name) for name in self if unit(name)}
+        return {"units": units, **(self._origin or {})}
+
+    @property
+    def rows(self) -> int:
+        """Number of rows: the length of every column."""
+        return len(next(iter(self._arrays.values()), ()))
+
+    def __getitem__(self, column: str) -> np.ndarray:
+        """A column, shape (rows,).
+
+        Raises
+        ------
+        KeyError
+            No such column.
+        """
+        return self._arrays[column]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._arrays)
+
+    def __len__(self) -> int:
+        return len(self._arrays)
+
+    def __repr__(self) -> str:
+        return f"Table of {self.rows} rows: {_listed(list(self))}"
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """A ``pandas.DataFrame`` of shape (rows, columns), with the same ``attrs``.
+
+        Raises
+        ------
+        ImportError
+            pandas is not installed.
+        """
+        import pandas
+
+        frame = pandas.DataFrame({name: self[name] for name in self})
+        frame.attrs.update(self.attrs)
+        return frame
+
+    def to_polars(self) -> polars.DataFrame:
+        """A ``polars.DataFrame`` of shape (rows, columns).
+
+        Raises
+        ------
+        ImportError
+            polars is not installed.
+        """
+        import polars
+
+        return polars.DataFrame({name: self[name] for name in self})
+
+    def to_arrow(self) -> pyarrow.Table:
+        """A ``pyarrow.Table`` of shape (rows, columns); units are in its schema's metadata.
+
+        Raises
+        ------
+        ImportError
+            pyarrow is not installed.
+        """
+        import json
+
+        import pyarrow
+
+        table = pyarrow.table({name: pyarrow.array(self[name]) for name in self})
+        return table.replace_schema_metadata({"hapticore": json.dumps(self.attrs)})
+
+
+def _listed(names: list[str]) -> str:
+    return ", ".join(names[:12]) + (", …" if len(names) > 12 else "")
+
+
+class Frames(Table):
     """Results of slots: a mapping from columns to arrays of shape (slots,).
 
     ======================  =========================================================================
@@ -76,6 +167,11 @@ class Frames(Mapping[str, np.ndarray]):
         """Number of slots: the length of every column."""
         return len(self._rows) if self._chosen is None else len(self._chosen)
 
+    @property
+    def rows(self) -> int:
+        """Number of slots, as `slots`."""
+        return self.slots
+
     def __getitem__(self, column: str) -> np.ndarray:
         """A column, shape (slots,).
 
@@ -104,8 +200,7 @@ class Frames(Mapping[str, np.ndarray]):
         return column in self._names
 
     def __repr__(self) -> str:
-        columns = ", ".join(self._names[:12]) + (", …" if len(self._names) > 12 else "")
-        return f"Frames of {self.slots} slots: {columns}"
+        return f"Frames of {self.slots} slots: {_listed(self._names)}"
 
     def where(self, **columns: Any) -> Frames:
         """The slots in which columns have these values.
@@ -133,43 +228,40 @@ class Frames(Mapping[str, np.ndarray]):
         found._chosen = before[chosen]
         return found
 
-    def to_pandas(self) -> pandas.DataFrame:
-        """A ``pandas.DataFrame`` of shape (slots, columns), with the same ``attrs``.
+    def plot(self, *columns: str) -> Plot:
+        """Draw columns over time, a colour per pad.
+
+        A quantity is drawn as in a report of the command: what was measured, with its truth where
+        there is one. Of many slots a line shows means, a band the range around them.
+
+        Parameters
+        ----------
+        *columns : str
+            Columns of numbers: ``plot("force_n", "x_mm")``; one figure each, below each other.
+
+        Returns
+        -------
+        Plot
+            It shows itself in a notebook; ``save`` writes it.
 
         Raises
         ------
-        ImportError
-            pandas is not installed.
+        KeyError
+            No such column.
+        Error
+            No column, or one of names; no slots.
+
+        Examples
+        --------
+        >>> import hapticore as hc
+        >>> hc.simulate("hockey", set={"duration_s": 0.1}).frames.plot("force_n")
+        Plot of Haptic force
         """
-        import pandas
+        if not columns:
+            raise Error("plot: expected the name of a column")
+        if not self.slots:
+            raise Error("plot: expected slots, got none")
+        return Plot(*self._rows.plot(list(columns), self._chosen))
 
-        frame = pandas.DataFrame({name: self[name] for name in self})
-        frame.attrs.update(self.attrs)
-        return frame
-
-    def to_polars(self) -> polars.DataFrame:
-        """A ``polars.DataFrame`` of shape (slots, columns).
-
-        Raises
-        ------
-        ImportError
-            polars is not installed.
-        """
-        import polars
-
-        return polars.DataFrame({name: self[name] for name in self})
-
-    def to_arrow(self) -> pyarrow.Table:
-        """A ``pyarrow.Table`` of shape (slots, columns); units are in its schema's metadata.
-
-        Raises
-        ------
-        ImportError
-            pyarrow is not installed.
-        """
-        import json
-
-        import pyarrow
-
-        table = pyarrow.table({name: pyarrow.array(self[name]) for name in self})
-        return table.replace_schema_metadata({"hapticore": json.dumps(self.attrs)})
+    def _report(self) -> Plot:
+        return Plot(*self._rows.plot([], self._chosen))

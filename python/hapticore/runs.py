@@ -11,11 +11,12 @@ from typing import Any
 
 from hapticore import _core, _values
 from hapticore.frames import Frames
+from hapticore.plots import Plot
 
 _Path = str | os.PathLike[str]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Run:
     """What a run leaves.
 
@@ -35,7 +36,7 @@ class Run:
     """
 
     frames: Frames
-    summary: dict[str, Any] = field(repr=False)
+    summary: dict[str, Any]
 
     @property
     def criteria(self) -> list[dict[str, Any]]:
@@ -56,6 +57,44 @@ class Run:
     def passed(self) -> bool:
         """Whether all criteria hold."""
         return all(criterion["pass"] for criterion in self.criteria)
+
+    def __repr__(self) -> str:
+        scene, profile = self.summary["scene"], self.summary["profile"]
+        criteria = self.criteria
+        passed = sum(criterion["pass"] for criterion in criteria)
+        judged = f", {passed} of {len(criteria)} criteria pass" if criteria else ""
+        return f"Run of {scene}, profile {profile}: {self.frames.slots} slots{judged}"
+
+    def plot(self, *columns: str) -> Plot:
+        """Draw the figures of the run's report, or columns over time.
+
+        Parameters
+        ----------
+        *columns : str
+            Columns as for `Frames.plot`; without one the figures that ``report.html`` of the command
+            has over two axes. Its maps of the sheet, panels and tables are only there.
+
+        Returns
+        -------
+        Plot
+            It shows itself in a notebook; ``save`` writes it.
+
+        Raises
+        ------
+        KeyError
+            No such column.
+        Error
+            A column of names; no slots.
+
+        Examples
+        --------
+        >>> import hapticore as hc
+        >>> hc.simulate("fig6").plot().titles[0]
+        'Friction over the haptic voltage'
+        """
+        if columns:
+            return self.frames.plot(*columns)
+        return self.frames._report()
 
 
 def _run(result: tuple[_core.Rows, str]) -> Run:

@@ -6,6 +6,7 @@
 //! | of a scene, or no such scene | `SceneError`, with key, file and line |
 //! | of a profile | `ProfileError` |
 //! | of a file that cannot be read or written | `OSError` |
+//! | of a board | `BoardError` |
 //! | an interruption | `KeyboardInterrupt` |
 //! | any other | `Error` |
 
@@ -26,14 +27,16 @@ mod exceptions {
     pyo3::import_exception!(hapticore.errors, Error);
     pyo3::import_exception!(hapticore.errors, SceneError);
     pyo3::import_exception!(hapticore.errors, ProfileError);
+    pyo3::import_exception!(hapticore.errors, BoardError);
 }
 
 /// The longest message, characters: what an input holds is cited, however long.
 const LONGEST: usize = 2000;
 
 /// Flags of the command that messages name, which are arguments here.
-const FLAGS: [&str; 11] = [
+const FLAGS: [&str; 19] = [
     "--set ",
+    "--set:",
     "--case",
     "--core ",
     "--profile",
@@ -44,6 +47,13 @@ const FLAGS: [&str; 11] = [
     "--full-scale-v",
     "--skip",
     "--truncated",
+    "--baud",
+    "--control",
+    "--dac",
+    "--wave",
+    "--tuning",
+    "--slots",
+    "--family",
 ];
 
 /// No such scene.
@@ -114,6 +124,11 @@ pub fn error(message: impl Into<String>) -> PyErr {
     exceptions::Error::new_err(message.into())
 }
 
+/// An exception of a board with a message.
+pub fn board_error(message: impl AsRef<str>) -> PyErr {
+    exceptions::BoardError::new_err(shown(message.as_ref()))
+}
+
 fn of_a_scene(error: &SceneError) -> PyErr {
     let line = match error.place {
         Place::Line(line) => Some(line),
@@ -124,7 +139,7 @@ fn of_a_scene(error: &SceneError) -> PyErr {
 }
 
 /// A message without the dashes of the command's flags, on one line.
-fn shown(message: &str) -> String {
+pub fn shown(message: &str) -> String {
     let mut line = message.lines().map(str::trim).collect::<Vec<_>>().join(" ");
     for flag in FLAGS {
         line = line.replace(flag, &flag.trim_start_matches("--").replace('-', "_"));

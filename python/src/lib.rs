@@ -11,10 +11,13 @@
 //! | `trace` | the signals of a core, clock by clock |
 //! | `display` | a display that is stepped |
 //! | `page` | the live page |
+//! | `board` | a board, real or virtual |
+//! | `tradeoff` | what accuracy costs |
 //!
 //! Arguments are checked before they change anything: an error leaves every object as it was.
 
 mod apart;
+mod board;
 mod display;
 mod failure;
 mod page;
@@ -22,6 +25,7 @@ mod rows;
 mod runs;
 mod slots;
 mod trace;
+mod tradeoff;
 
 use hapticore_scene::gallery;
 use pyo3::prelude::*;
@@ -45,9 +49,11 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<slots::Slots>()?;
     module.add_class::<display::Stepped>()?;
     module.add_class::<page::Page>()?;
+    module.add_class::<board::Link>()?;
     module.add_function(wrap_pyfunction!(scenes, module)?)?;
     module.add_function(wrap_pyfunction!(profiles, module)?)?;
     module.add_function(wrap_pyfunction!(runs::simulate, module)?)?;
     module.add_function(wrap_pyfunction!(runs::replay, module)?)?;
-    module.add_function(wrap_pyfunction!(runs::calibrate, module)?)
+    module.add_function(wrap_pyfunction!(runs::calibrate, module)?)?;
+    module.add_function(wrap_pyfunction!(tradeoff::tradeoff, module)?)
 }

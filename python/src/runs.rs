@@ -9,7 +9,7 @@ use hapticore_run::case::Settings;
 use hapticore_run::columns::{Columns, OfScene};
 use hapticore_run::control::prediction;
 use hapticore_run::lab::{self, Data};
-use hapticore_run::record;
+use hapticore_run::record::{self, Record};
 use hapticore_run::replay::{Plan, run as run_capture};
 use hapticore_run::simulation;
 use pyo3::prelude::*;
@@ -39,11 +39,11 @@ pub fn simulate(
         let of = (&found, scene.as_str());
         let cases = simulation::cases(of, &case, &profile, settings.fidelity)?;
         let stability = prediction::of_cases(&cases, unstable)?;
-        let (mut record, _) =
+        let (record, _) =
             simulation::run((&found, &set), (&cases, stability), &settings, None, &|| ())?;
         let columns = Arc::new(Columns::new(Some(OfScene::of(&record))));
-        let rows = std::mem::take(&mut record.rows);
-        Ok((Rows::new(columns, rows), serde_json::to_string(&record)?))
+        let summary = serde_json::to_string(&record)?;
+        Ok((Rows::of_run(columns, record), summary))
     })
 }
 
@@ -85,8 +85,9 @@ pub fn replay(
             Ok(())
         };
         let replayed = run_capture(&plan, &mut sink, &|| ())?;
-        let rows = Rows::new(Arc::new(Columns::new(None)), record::Rows::of_cases([rows]));
-        Ok((rows, serde_json::to_string(&replayed.record)?))
+        let summary = serde_json::to_string(&replayed.record)?;
+        let record = Record { rows: record::Rows::of_cases([rows]), ..replayed.record };
+        Ok((Rows::of_run(Arc::new(Columns::new(None)), record), summary))
     })
 }
 

@@ -20,7 +20,9 @@ import hapticore as hc
 
 PYTHON = Path(__file__).resolve().parents[1]
 CONFIG = str(PYTHON / "pyproject.toml")
-MODULES = ["", ".core", ".display", ".errors", ".frames", ".gym", ".page", ".runs"]
+MODULES = [
+    "", ".board", ".core", ".display", ".errors", ".frames", ".gym", ".page", ".plots", ".runs", ".tradeoffs",
+]  # fmt: skip
 
 
 def test_stubs_are_those_of_the_module() -> None:
@@ -72,7 +74,7 @@ def test_a_docstring_names_parameters_and_errors(name: str, of: Callable[..., An
         return
     for parameter in set(inspect.signature(of).parameters) - {"self"}:
         assert re.search(rf"\b{parameter}\b", text), (name, parameter)
-    if name not in ("Live.close", "Display.reset"):
+    if name not in ("Live.close", "Display.reset", "Board.close"):
         assert "Raises\n------" in text, name
 
 
@@ -84,6 +86,15 @@ def test_the_readmes_example_gives_figure_6(capsys: pytest.CaptureFixture[str]) 
     printed = capsys.readouterr().out.strip()
     shown = re.findall(r"```text\n(.*?)```", readme, re.S)[0].strip()
     assert printed == shown
+
+
+def test_the_readmes_other_examples_print_what_they_show(capsys: pytest.CaptureFixture[str]) -> None:
+    readme = (PYTHON / "README.md").read_text(encoding="utf-8")
+    blocks = re.findall(r"```python\n(.*?)```\n+```text\n(.*?)```", readme, re.S)[1:]
+    assert blocks
+    for code, shown in blocks:
+        exec(compile(code, "README.md", "exec"), {})
+        assert capsys.readouterr().out.strip() == shown.strip()
 
 
 @pytest.mark.parametrize("notebook", sorted((PYTHON / "notebooks").glob("*.py")), ids=lambda path: path.stem)

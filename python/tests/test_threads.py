@@ -4,10 +4,8 @@
 from __future__ import annotations
 
 import _thread
-import signal
 import threading
 import time
-from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
@@ -70,14 +68,6 @@ def test_two_runs_at_a_time_give_the_frames_of_one() -> None:
     alone = run(0)
     with ThreadPoolExecutor(2) as pool:
         assert set(pool.map(run, range(4))) == {alone}
-
-
-@pytest.fixture
-def heard() -> Iterator[None]:
-    """Ctrl-C is heard: a shell's background job ignores it."""
-    before = signal.signal(signal.SIGINT, signal.default_int_handler)
-    yield
-    signal.signal(signal.SIGINT, before)
 
 
 @pytest.mark.usefixtures("heard")

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use toml::{Table, Value};
 
 /// Which crates of the workspace a crate may use; tests may use more ([`DEVELOPMENT`]).
-const IMPORTS: [(&str, &[&str]); 20] = [
+const IMPORTS: [(&str, &[&str]); 21] = [
     ("model/hdl", &[]),
     ("model/contract", &["hapticore-hdl"]),
     // Not the hardware language: its signals round, too.
@@ -57,6 +57,7 @@ const IMPORTS: [(&str, &[&str]); 20] = [
             "hapticore-scene",
         ],
     ),
+    ("cli/report", &["hapticore-host", "hapticore-run"]),
     (
         "cli/tradeoff",
         &[
@@ -85,13 +86,16 @@ const IMPORTS: [(&str, &[&str]); 20] = [
     (
         "python",
         &[
+            "hapticore-board",
             "hapticore-contract",
             "hapticore-hdl",
             "hapticore-host",
             "hapticore-live",
             "hapticore-model",
+            "hapticore-report",
             "hapticore-run",
             "hapticore-scene",
+            "hapticore-tradeoff",
         ],
     ),
     (
@@ -104,6 +108,7 @@ const IMPORTS: [(&str, &[&str]); 20] = [
             "hapticore-host",
             "hapticore-live",
             "hapticore-model",
+            "hapticore-report",
             "hapticore-rtl",
             "hapticore-run",
             "hapticore-scene",
@@ -117,8 +122,9 @@ const IMPORTS: [(&str, &[&str]); 20] = [
 /// What the tests of a crate use besides.
 ///
 /// Tests of boards take the host's side of the line, those of scenes its crosstalk cancellation; other
-/// lock-ins have the estimator of the reference behind them.
-const DEVELOPMENT: [(&str, &[&str]); 5] = [
+/// lock-ins have the estimator of the reference behind them. Tests of reports make up settings of a scene.
+const DEVELOPMENT: [(&str, &[&str]); 6] = [
+    ("cli/report", &["hapticore-scene"]),
     ("cli/tradeoff", &["hapticore-reference"]),
     ("model", &["hapticore-reference"]),
     ("model/proof", &["hapticore-rtl"]),

@@ -12,8 +12,10 @@
 //! | [`serve`] | the same for another program, over TCP or on standard input and output |
 //! | [`recording`] | a board's rows as CSV or MCAP |
 //! | [`source`] | a board as what a live page shows and drives |
+//! | [`background`] | a board that a thread polls, for a program that calls when it likes |
 //! | [`target`](mod@target) | which board a command line means, and what it is brought up with |
 
+pub mod background;
 pub mod bench;
 pub mod check;
 pub mod faults;

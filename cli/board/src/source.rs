@@ -123,6 +123,16 @@ impl Board {
         self.session.phase()
     }
 
+    /// What the board has said that it is.
+    pub fn identity(&self) -> Option<&str> {
+        self.session.identity()
+    }
+
+    /// Why it was refused last, in words; none where it starts up.
+    pub fn refusal(&self) -> Option<String> {
+        self.session.refusal().map(ToString::to_string)
+    }
+
     /// What has come so far.
     pub fn statistics(&self) -> Statistics {
         self.session.statistics()

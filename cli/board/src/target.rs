@@ -74,6 +74,22 @@ pub struct Target {
     pub running: Option<Running>,
 }
 
+impl Target {
+    /// The same board once more, for a connection after this one has ended.
+    ///
+    /// # Errors
+    /// As [`line`](hapticore_host::link::line): the name of a line that is none.
+    pub fn again(&self) -> Result<Target> {
+        let line: Box<dyn Line> = match &self.running {
+            Some(running) => Box::new(running.clone()),
+            None => line(&self.line.name(), self.plan.baud).map_err(anyhow::Error::msg)?,
+        };
+        let Target { plan, device, described, running, .. } = self;
+        let (plan, device) = (plan.clone(), device.clone());
+        Ok(Target { line, plan, device, described: described.clone(), running: running.clone() })
+    }
+}
+
 /// What a page shows of a device.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Described {

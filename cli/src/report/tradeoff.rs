@@ -11,13 +11,14 @@ use super::plot::Plot;
 use super::series::{Mark, Series};
 use super::tables;
 use crate::tradeoff::{
-    NEXT_BIT, OF_ONE, SYNTHESISED, Tradeoff, front, loop_error, looped, next_bit_rows, prediction,
+    NEXT_BIT, OF_ONE, SYNTHESISED, front, loop_error, looped, next_bit_rows, prediction,
     synthesised_rows,
 };
 use hapticore_tradeoff::cost::Family;
 use hapticore_tradeoff::errors::Quantity;
 use hapticore_tradeoff::knobs::Knob;
 use hapticore_tradeoff::loops::LoopErrors;
+use hapticore_tradeoff::outcome::Tradeoff;
 use hapticore_tradeoff::sweep::Point;
 
 /// The page.

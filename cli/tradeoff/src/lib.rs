@@ -15,6 +15,7 @@
 //! | [`mod@search`] | the cheapest profile for a stated error |
 //! | [`mod@model`], [`exact`] | what words add and cost; branch and bound over their lengths |
 //! | [`target`] | stated errors |
+//! | [`outcome`] | all of it, from names of profile and scenes to rows and the profile that was found |
 //! | [`synthesis`] | what synthesis makes of a core, beside the estimate |
 //!
 //! Errors are the core's against the ideal estimator, which sees the same samples without an ADC's
@@ -30,6 +31,7 @@ pub mod front;
 pub mod knobs;
 pub mod loops;
 pub mod model;
+pub mod outcome;
 pub mod points;
 pub mod search;
 pub mod sweep;

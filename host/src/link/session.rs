@@ -201,6 +201,11 @@ impl Session {
         matches!(self.phase, Phase::Measuring | Phase::Armed)
     }
 
+    /// What the board has said that it is since the line was opened: protocol, digest, drive output.
+    pub fn identity(&self) -> Option<&str> {
+        self.identity.as_deref()
+    }
+
     /// Why the board was refused last.
     pub fn refusal(&self) -> Option<&StartupError> {
         self.refused.as_ref()

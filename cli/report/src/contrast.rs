@@ -1,20 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The style sheet's colours against its page, in both modes.
 
-use std::collections::BTreeMap;
-
-const STYLE: &str = include_str!("report.css");
-
-/// The colours of the light and of the dark mode by name.
-fn modes() -> [BTreeMap<&'static str, &'static str>; 2] {
-    let (light, dark) =
-        STYLE.split_once("@media (prefers-color-scheme: dark)").expect("a dark mode");
-    let dark = dark.split_once(".k0 {").expect("classes after the colours").0;
-    [light, dark].map(|text| {
-        let pairs = text.split("--").filter_map(|part| part.split_once(": #"));
-        pairs.map(|(name, rest)| (name, &rest[..6])).collect()
-    })
-}
+use super::colours::{STYLE, modes};
 
 /// Relative luminance, as the accessibility guidelines define it.
 fn luminance(colour: &str) -> f64 {

@@ -2,7 +2,7 @@
 //! Colours that follow the reader's light or dark mode.
 //!
 //! `plotters` writes colours into every element. So the report passes sentinels, which carry an
-//! index instead of a colour. Afterwards each becomes a class, and `report.css` defines the index's
+//! index instead of a colour. Afterwards each becomes a class, and `colours.css` defines the index's
 //! colour in either mode.
 
 use plotters::style::RGBColor;

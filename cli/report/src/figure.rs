@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A figure: a title, a legend, drawings, and a sentence on what to see in them.
 
+pub use super::canvas::WIDTH;
 use super::page::escape;
 use super::plot::Plot;
 use super::series::{Mark, Series};
@@ -13,21 +14,67 @@ pub struct Figure {
     legend: String,
     body: String,
     wide: bool,
+    parts: Option<Parts>,
+}
+
+/// What a figure of one plot consists of.
+#[derive(Clone, Debug, Default)]
+pub struct Parts {
+    /// Entries of its legend.
+    pub keys: Vec<Key>,
+    /// The plot, an `svg` element.
+    pub drawing: String,
+    /// Height of the plot, where its width is [`WIDTH`].
+    pub height: u32,
+}
+
+/// An entry of a legend.
+#[derive(Clone, Debug, Default)]
+pub struct Key {
+    /// What it names.
+    pub name: String,
+    /// An `svg` element, 28 wide and 14 high.
+    pub swatch: String,
 }
 
 impl Figure {
     /// One plot; its legend follows from its series.
     pub fn plot(title: &str, note: &str, plot: &Plot) -> Figure {
-        let mut legend = keys(&plot.series);
+        let mut entries = entries(&plot.series);
         if plot.shows_limits() {
-            legend += &key("limit", &line_swatch(&super::paint::Paint::LIMIT.stroke_class()));
+            let swatch = line_swatch(&super::paint::Paint::LIMIT.stroke_class());
+            entries.push(Key { name: "limit".into(), swatch });
         }
-        Figure { title: title.into(), note: note.into(), legend, body: plot.svg(), wide: false }
+        let legend = entries.iter().map(|of| key(&of.name, &of.swatch)).collect();
+        let drawing = plot.svg();
+        Figure {
+            title: title.into(),
+            note: note.into(),
+            legend,
+            body: drawing.clone(),
+            wide: false,
+            parts: Some(Parts { keys: entries, drawing, height: plot.height }),
+        }
     }
 
     /// Anything else, over the whole width; `legend` and `body` are HTML.
     pub fn wide(title: &str, note: &str, legend: String, body: String) -> Figure {
-        Figure { title: title.into(), note: note.into(), legend, body, wide: true }
+        Figure { title: title.into(), note: note.into(), legend, body, wide: true, parts: None }
+    }
+
+    /// Its title.
+    pub fn title(&self) -> &str {
+        &self.title
+    }
+
+    /// The sentence on what to see in it; empty where there is none.
+    pub fn note(&self) -> &str {
+        &self.note
+    }
+
+    /// What it consists of where it is one plot; none of maps, panels and tables.
+    pub fn parts(&self) -> Option<&Parts> {
+        self.parts.as_ref()
     }
 
     /// The figure as HTML.
@@ -50,8 +97,12 @@ impl Figure {
 
 /// The legend of named series.
 pub fn keys(series: &[Series]) -> String {
+    entries(series).iter().map(|of| key(&of.name, &of.swatch)).collect()
+}
+
+fn entries(series: &[Series]) -> Vec<Key> {
     let named = series.iter().filter(|s| !s.name.is_empty());
-    named.map(|s| key(&s.name, &swatch(s))).collect()
+    named.map(|s| Key { name: s.name.clone(), swatch: swatch(s) }).collect()
 }
 
 /// An entry of a legend.

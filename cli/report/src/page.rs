@@ -3,7 +3,7 @@
 
 use hapticore_run::record::Record;
 
-const STYLE: &str = include_str!("report.css");
+const STYLE: &str = concat!(include_str!("colours.css"), include_str!("report.css"));
 
 /// Text as it may stand in an element or an attribute.
 pub fn escape(text: &str) -> String {

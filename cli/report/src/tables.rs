@@ -3,7 +3,7 @@
 
 use super::number;
 use super::page::escape;
-use crate::print;
+use super::words;
 use hapticore_run::findings;
 use hapticore_run::record::{Criterion, Effect, Record, SignalError};
 
@@ -86,7 +86,7 @@ fn effect(effect: &Effect, wall_seconds: f64) -> String {
             &effect
                 .finer
                 .as_ref()
-                .map_or(String::new(), |(finer, percent)| escape(&print::off(*percent, finer))),
+                .map_or(String::new(), |(finer, percent)| escape(&words::off(*percent, finer))),
         ),
         ("number", &number::seconds(effect.seconds)),
         ("number", &share(effect.seconds / wall_seconds)),
@@ -128,7 +128,7 @@ fn signal(error: &SignalError) -> String {
 
 /// Flagged frames by kind and pad, tracking and stability of force loops; nothing where there is none.
 pub fn findings(record: &Record) -> String {
-    let lines = findings::lines(&record.findings).into_iter().chain(print::stability(record));
+    let lines = findings::lines(&record.findings).into_iter().chain(words::stability(record));
     let items: String = lines.map(|line| format!("<li>{}</li>\n", escape(&line))).collect();
     if items.is_empty() { items } else { format!("<ul class=\"findings\">\n{items}</ul>\n") }
 }
