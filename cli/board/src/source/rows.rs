@@ -42,6 +42,7 @@ impl Board {
             laws: None,
             truth: None,
             driven,
+            game: None,
             reference: None,
         }
     }
