@@ -12,6 +12,9 @@ use crate::state::{Signs, Watch};
 /// Parts of a pad whose last one alone brakes.
 const STRIPS: usize = 3;
 
+/// By how much a force is more than that of impacts where a wall brakes, N: more than a word's rounding.
+const ROUNDING_N: f64 = 1e-3;
+
 /// Least force of a hand that leaves a wall, N.
 const PULLS_N: f64 = 0.01;
 
@@ -137,8 +140,10 @@ impl Pads {
         let measured = [row.x_mm, row.y_mm, row.force_n, row.capacitance_pf];
         // Where walls are off, a pad with a target of its own is in none.
         let has_wall = walls.iter().any(|wall| wall.mm.is_some());
+        // An impact is no wall.
+        let impact_n = last.game.map_or(0.0, |game| game.impact_n + ROUNDING_N);
         let brakes =
-            |driven: &Driven| has_wall && driven.free == Some(false) && driven.target_n > 0.0;
+            |driven: &Driven| has_wall && driven.free == Some(false) && driven.target_n > impact_n;
         let place = [row.true_x_mm, row.true_y_mm].map(|mm| mm.unwrap_or(f64::NAN));
         let hand_n = [row.hand_x_n, row.hand_y_n].map(|force_n| force_n.unwrap_or(0.0));
         let around: Vec<&Surface> =
