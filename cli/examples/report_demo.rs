@@ -232,6 +232,7 @@ fn slot(case: usize, seed: u32, truth: Truth) -> Row {
         laws: None,
         truth: Some(truth),
         driven: None,
+        game: None,
         reference: Some(reference),
     }
 }

@@ -19,6 +19,7 @@
 //! | [`bringup`] | all of that step by step, with a test of the ADC's data lines |
 //! | [`link`] | a serial port or a connection that is kept open, with a board that is brought up and armed over it |
 //! | [`ad7606c`] | the ADC's registers, for programs that stand in for a board |
+//! | [`air_hockey`] | a game on the frames of pads: puck, impacts, walls |
 //! | [`drive`] | bytes to a board that drives its pads: tuning, targets, walls |
 //! | [`device`], [`residual`] | the calibration of a device: its file, its words for a core, how well its table fits |
 //! | [`profile`] | the core's profile, for the terminals and pads of a device |
@@ -55,6 +56,7 @@
 //! output.
 
 pub mod ad7606c;
+pub mod air_hockey;
 pub mod bringup;
 pub mod command;
 pub mod command_decoder;

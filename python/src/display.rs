@@ -50,6 +50,7 @@ impl Stepped {
             swept: of.swept(),
             driven: case.plan().is_some(),
             walled: case.plan().is_some_and(|plan| plan.wall.is_some()),
+            plays: of.arena.is_some(),
         })));
         let device = stepper.plant().device();
         Stepped {

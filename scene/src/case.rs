@@ -4,6 +4,7 @@
 
 use std::sync::Arc;
 
+use crate::arena::ArenaPlan;
 use crate::control::ControlPlan;
 use crate::device::Device;
 use crate::doubts;
@@ -11,6 +12,7 @@ use crate::effects::{EFFECTS, SPLITTING, Spec, carrier, part};
 use crate::error::SceneError;
 use crate::format::{Limits, Node, Table, Value};
 use crate::pad::{PadPlan, Tables};
+use crate::stimulus::Moment;
 use crate::timing::Timing;
 
 /// The most pads of a scene.
@@ -20,7 +22,7 @@ const MOST_PADS: usize = 16;
 const MOST_POINTS: usize = 10_000_000;
 
 /// Keys of a scene that say what is done with its device, and not what that is.
-const DONE_WITH_IT: [&str; 9] = [
+const DONE_WITH_IT: [&str; 10] = [
     "title",
     "summary",
     "case",
@@ -28,12 +30,13 @@ const DONE_WITH_IT: [&str; 9] = [
     "pad",
     "control",
     "wall",
+    "arena",
     "duration_s",
     "dwell_slots",
 ];
 
 /// Those of them that say what its pads do.
-const OF_PADS: [&str; 4] = ["pad", "wall", "duration_s", "dwell_slots"];
+const OF_PADS: [&str; 5] = ["pad", "wall", "arena", "duration_s", "dwell_slots"];
 
 /// Keys of `[sheet]` of which the host knows nothing: what makes a film non-uniform.
 const UNEVEN: [&str; 2] = ["slope_percent", "patch"];
@@ -60,6 +63,8 @@ pub struct Case {
     pub device: Device,
     /// The force controller that drives the pads, where the scene has one.
     pub control: Option<ControlPlan>,
+    /// The table of air hockey that the pads play on, where the scene has one.
+    pub arena: Option<ArenaPlan>,
     pub(crate) pads: Vec<PadPlan>,
     /// All that the scene says of the device, and what its pads do, but for their target forces.
     of_device: Arc<toml::Table>,
@@ -103,6 +108,12 @@ impl Case {
     /// Names of the pads, in the order of their slots.
     pub fn pad_names(&self) -> Vec<&str> {
         self.pads.iter().map(|pad| pad.name.as_str()).collect()
+    }
+
+    /// Where the pads start, mm right of the sheet's centre and above it.
+    pub fn starts_mm(&self) -> Vec<[f64; 2]> {
+        let set = |pad: &PadPlan| pad.set(0, Moment::at(0.0));
+        self.pads.iter().map(|pad| [set(pad).x_mm, set(pad).y_mm]).collect()
     }
 
     /// The parts of each pad that have slots of their own; one where it is served as a whole.
@@ -255,6 +266,7 @@ impl Case {
             .collect::<Result<_, _>>()?;
         let has = |name| effects.iter().any(|effect| effect.name == name);
         let control = ControlPlan::read(root, &device)?;
+        let arena = ArenaPlan::read(root, &device)?;
         let has = Tables {
             gap: has("gap"),
             finger: has("hand"),
@@ -290,6 +302,7 @@ impl Case {
             length,
             device,
             control,
+            arena,
             pads,
             parts_mm,
             effects,

@@ -12,6 +12,7 @@ const SCENES: &[(&str, &str)] = &[
     ("fig13", include_str!("../gallery/fig13.toml")),
     ("fig15", include_str!("../gallery/fig15.toml")),
     ("wall-2d", include_str!("../gallery/wall-2d.toml")),
+    ("air-hockey", include_str!("../gallery/air-hockey.toml")),
     ("peg", include_str!("../gallery/peg.toml")),
     ("hockey", include_str!("../gallery/hockey.toml")),
     ("terminals-500-ohm", include_str!("../gallery/terminals-500-ohm.toml")),

@@ -50,7 +50,7 @@
 //! | know the display that a scene describes | [`Device`], [`signs_by_place`] |
 //! | name a quantity, its unit and its truth | [`Quantity`] |
 //! | know what a scene claims | [`Criterion`], [`Measure`] |
-//! | know the force loop and the walls that a scene asks for | [`ControlPlan`], [`WallPlan`] |
+//! | know the force loop, the walls and the game that a scene asks for | [`ControlPlan`], [`WallPlan`], [`ArenaPlan`] |
 //! | start from a bundled scene | [`gallery`] |
 //!
 //! Inside, from the bottom up:
@@ -66,6 +66,7 @@
 //!
 //! The plant knows no bit widths of the core and writes no file.
 
+mod arena;
 mod budget;
 mod case;
 mod control;
@@ -98,6 +99,7 @@ mod variant;
 mod wall;
 mod wave;
 
+pub use arena::ArenaPlan;
 pub use budget::LevelDeviation;
 pub use case::Case;
 pub use control::{ControlLaw, ControlPlan, DriveCurve, ForceEstimate};

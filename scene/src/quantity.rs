@@ -17,6 +17,8 @@ enum Source {
     Scene,
     /// Two others, taken as a vector.
     Pair,
+    /// The host's game, where the scene has an arena: it is the same for estimate and truth.
+    Game,
 }
 
 /// Name, unit, source and truth of a quantity.
@@ -93,6 +95,18 @@ quantities! {
     EccentricityMm: "eccentricity_mm", "mm", Scene, |truth| truth.set.eccentricity_mm;
     /// The part of a split pad that the slot serves, from 0.
     Part: "part", "1", Scene, |truth| truth.part as f64;
+    /// Where the puck of an arena is, mm right of the sheet's centre.
+    PuckXMm: "puck_x_mm", "mm", Game, |_| f64::NAN;
+    /// The same above the sheet's centre, mm.
+    PuckYMm: "puck_y_mm", "mm", Game, |_| f64::NAN;
+    /// Speed of the puck, mm/s.
+    PuckMmS: "puck_mm_s", "mm/s", Game, |_| f64::NAN;
+    /// Force of impacts on the slot's pad, N.
+    ImpactN: "impact_n", "N", Game, |_| f64::NAN;
+    /// Goals of the left player.
+    ScoreLeft: "score_left", "1", Game, |_| f64::NAN;
+    /// Goals of the right player.
+    ScoreRight: "score_right", "1", Game, |_| f64::NAN;
 }
 
 impl Quantity {
@@ -171,6 +185,7 @@ mod tests {
             ("N", "_n"),
             ("mm", "_mm"),
             ("g", "_g"),
+            ("mm/s", "_mm_s"),
             ("s", "_s"),
         ];
         for quantity in Quantity::all().filter(|quantity| quantity.unit() != "1") {

@@ -37,6 +37,10 @@
 //! [carrier]
 //! [sensor]
 //!
+//! [control]                       # see `control`
+//! [wall]                          # see `wall`
+//! [arena]                         # see `arena`
+//!
 //! [[case]]                        # variants of the scene, run one after the other; a single "main" where there is none
 //! name = "500-ohm"
 //! set = { "sheet.terminal_ohm" = 500 }

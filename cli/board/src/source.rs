@@ -224,6 +224,7 @@ impl Source for Board {
             terminals: Vec::new(),
             voltages: Vec::new(),
             walls: self.walls.iter().map(|wall| wall.mm).collect(),
+            game: None,
         }
     }
 

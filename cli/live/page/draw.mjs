@@ -3,7 +3,7 @@
 
 import { place } from './model.mjs';
 
-const NAMES = ['page', 'raised', 'rule', 'ink', 'muted', 'grid', 'limit', 'measured', 'true', 'target', 'finger', 'force'];
+const NAMES = ['page', 'raised', 'rule', 'ink', 'muted', 'grid', 'limit', 'measured', 'true', 'target', 'finger', 'force', 'puck', 'goal'];
 const FONT = '12px system-ui, sans-serif';
 
 /** Colours by name and by number of a series. */
@@ -142,23 +142,31 @@ export class View {
   walls(g, middle, reach, gap) {
     this.model.hello.walls.forEach((wall, k) => {
       const mm = this.model.shown.walls[k];
-      if (mm == null) return;
-      const axis = wall.axis === 'x' ? 0 : 1;
-      const low = middle.map((centre, of) => centre - reach[of]);
-      const high = middle.map((centre, of) => centre + reach[of]);
-      const surface = Math.min(high[axis], Math.max(low[axis], mm));
-      (wall.inside === 'below' ? high : low)[axis] = surface;
-      const [[left, bottom], [right, top]] = [this.at(low), this.at(high)];
-      g.fillStyle = hatch(g, gap);
-      g.fillRect(left, top, right - left, bottom - top);
-      if (surface !== mm) return;
-      const ends = [low, high].map((end) => end.map((of, along) => (along === axis ? mm : of)));
-      line(g, ends.map((end) => this.at(end)), colours.ink, 2);
+      if (mm != null) this.wall(g, { axis: wall.axis === 'x' ? 0 : 1, mm, below: wall.inside === 'below' }, middle, reach, gap);
     });
+  }
+
+  /** One wall across an axis, whose inside is below its surface or above it. */
+  wall(g, { axis, mm, below }, middle, reach, gap) {
+    const low = middle.map((centre, of) => centre - reach[of]);
+    const high = middle.map((centre, of) => centre + reach[of]);
+    const surface = Math.min(high[axis], Math.max(low[axis], mm));
+    (below ? high : low)[axis] = surface;
+    const [[left, bottom], [right, top]] = [this.at(low), this.at(high)];
+    g.fillStyle = hatch(g, gap);
+    g.fillRect(left, top, right - left, bottom - top);
+    if (surface !== mm) return;
+    const ends = [low, high].map((end) => end.map((of, along) => (along === axis ? mm : of)));
+    line(g, ends.map((end) => this.at(end)), colours.ink, 2);
   }
 
   /** How deep a pad is in each wall, mm: `[axis, surface, depth]`. */
   depths(pad) {
+    const { arena } = this.model.hello;
+    if (arena) {
+      const at = place(pad);
+      return arena.reach_mm[pad.pad].flatMap(([from, to], axis) => [[axis, from, from - at[axis]], [axis, to, at[axis] - to]]);
+    }
     return this.model.hello.walls.map((wall, k) => {
       const axis = wall.axis === 'x' ? 0 : 1;
       const mm = this.model.shown.walls[k];

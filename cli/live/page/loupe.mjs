@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // Twenty millimetres around the finger of the chosen pad, where wall, depth, spring and force are large enough to see.
 
+import { drawPuck, drawReach } from './arena.mjs';
 import { arrow, colours, disc, fixed, forceVector, label, line, ring, spring, View } from './draw.mjs';
 import { finger, place } from './model.mjs';
 
@@ -31,6 +32,8 @@ export class Loupe extends View {
     disc(g, this.at(place(pad)), this.rim, colours.true, 0.06);
     // A little more than is seen, so that a surface at the edge is no line there.
     this.walls(g, this.origin, reach.map((mm) => mm + 1), 10);
+    drawReach(g, this, reach.map((mm) => mm + 1));
+    drawPuck(g, this);
     this.drawPad(g, pad);
     const [right, bottom] = [this.width - 12, this.height - 12];
     line(g, [[right - 5 * this.scale, bottom], [right, bottom]], colours.muted, 3);

@@ -34,7 +34,7 @@ export class Model {
   }
 
   /** Keeps a message of type `frames`; its columns become one object per pad. */
-  acceptFrames({ slot, time_s, terminals, voltages, walls, pads: columns }) {
+  acceptFrames({ slot, time_s, terminals, voltages, walls, game, pads: columns }) {
     const names = Object.keys(columns);
     const pads = this.hello.pads.map(() => null);
     columns.pad.forEach((number, row) => {
@@ -44,7 +44,7 @@ export class Model {
       pad.ahead_mm = length(...finger(pad).map((mm, axis) => minus(mm, place(pad)[axis])));
     });
     if (this.latest && time_s < this.latest.time_s) this.clear();
-    this.latest = { slot, time_s, terminals, voltages, walls, pads };
+    this.latest = { slot, time_s, terminals, voltages, walls, game, pads };
     this.keep(this.latest);
   }
 

@@ -90,7 +90,8 @@ function acceptHello(hello) {
   model.acceptHello(hello);
   if (!isOwn(hello)) opened = { scene: hello.scene, case: hello.case_index || null, set: hello.set };
   else if (!opened.preset) opened.case = hello.case_index || null;
-  document.body.className = `${hello.truth ? '' : 'no-truth'} ${hello.hand ? '' : 'no-hand'} ${hello.source}`;
+  $('game').hidden = !hello.arena;
+  document.body.className = `${hello.truth ? '' : 'no-truth'} ${hello.hand ? '' : 'no-hand'} ${hello.source} ${hello.arena ? 'plays' : ''}`;
   document.title = `${hello.scene} – hapticore live`;
   const scenes = new Set([hello.scene, ...hello.scenes]);
   fill($('scene'), [...scenes].sort().map((name) => [name, name]), hello.scene);
@@ -120,11 +121,11 @@ function isOwn({ presets, scene, set }) {
 }
 
 /** Presets, hint and warnings. */
-function showTexts({ presets, title, summary, scene, walls, warnings }) {
+function showTexts({ presets, title, summary, scene, walls, arena, warnings }) {
   if (board.is) return void write($('hint'), `${title}. Values are measured; nothing here knows the truth.`);
   const current = presets.find(({ name }) => name === opened.preset);
-  const what = walls.length ? 'into the hatched wall: the deeper it goes, the harder the sheet brakes it'
-    : 'and see what the core measures';
+  const what = arena ? 'into the puck: its impact and the walls of the arena brake the pad'
+    : walls.length ? 'into the hatched wall: the deeper it goes, the harder the sheet brakes it' : 'and see what the core measures';
   $('hint').title = summary;
   write($('hint'), current?.hint ?? `${title || scene}. Drag a pad ${what}.`);
   $('presets').replaceChildren(...presets.map((preset) => {
@@ -180,6 +181,7 @@ function freeze(time_s) {
   draw();
 }
 
+const serve = () => send({ type: 'serve' });
 const follow = () => model.follow();
 const toggleFreeze = () => (model.frozen ? (follow(), draw()) : freeze());
 const pickEvent = ({ pad, time_s }) => (choose(pad), freeze(time_s));
@@ -218,6 +220,7 @@ function paint(now_ms) {
   if (now_ms - strips_ms >= STRIPS_MS) paintStrips(now_ms);
   // For tests: what is drawn, and where.
   Object.assign($('sheet').dataset, { slot: model.shown?.slot ?? '', scale: sheet.scale });
+  if (model.shown?.game) Object.assign($('sheet').dataset, { puck: model.shown.game.puck_mm, speed: model.shown.game.puck_mm_s });
   clearTimeout(textTimer);
   if (now_ms - text_ms >= TEXT_MS) paintText(now_ms);
   else textTimer = setTimeout(() => paintText(performance.now()), TEXT_MS);
@@ -239,6 +242,7 @@ function paintText(now_ms) {
   write($('speed-now'), model.lost ? 'Not connected' : paused ? 'Paused' : reached);
   $('speed-now').className = slow ? 'bad' : '';
   write($('slot-now'), shown ? `${fixed(shown.time_s, 2)} s, slot ${shown.slot}` : '');
+  write($('score'), shown?.game ? shown.game.score.join(' : ') : '');
   write($('answer-now'), link.answer_ms == null ? '' : `answers in ${fixed(link.answer_ms, 0)} ms`);
   write($('pause'), paused ? 'Run' : 'Pause');
   write($('freeze'), frozen ? 'Follow' : 'Freeze');
@@ -293,8 +297,9 @@ for (const [word, words] of Object.entries(STATES)) $('states').append(element('
 fill($('span'), SPANS, strips.span_s);
 leadByPointer(sheet, leader, (pad) => (follow(), choose(pad)));
 leadByPointer(loupe, leader, follow);
-listenToKeys({ model, choose, freeze: toggleFreeze, slot: oneSlot, step: (by) => (follow(), leader.step(model.pad, by)) });
+listenToKeys({ model, choose, freeze: toggleFreeze, slot: oneSlot, serve, step: (by) => (follow(), leader.step(model.pad, by)) });
 const clicks = {
+  serve,
   pause: () => pace(paused ? Number($('speed').value) : 0), 'one-slot': oneSlot, 'take-slot': () => send({ type: 'slot' }),
   freeze: toggleFreeze, record: toggleRecord, 'copy-command': () => copy(model.hello?.command ?? ''),
   'copy-link': () => copy(location.origin + location.pathname + writeLink('', opened)),

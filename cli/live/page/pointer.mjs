@@ -68,8 +68,8 @@ export function leadByPointer(view, leader, onTake) {
   }, { passive: false });
 }
 
-/** Keys: numbers choose, arrows step, space freezes, a full stop runs one slot. */
-export function listenToKeys({ model, choose, step, freeze, slot }) {
+/** Keys: numbers choose, arrows step, space freezes, a full stop runs one slot, n serves a new puck. */
+export function listenToKeys({ model, choose, step, freeze, slot, serve }) {
   addEventListener('keydown', (event) => {
     const control = event.target.closest?.('input, select, button, summary');
     const typing = control && !control.matches('button');
@@ -78,6 +78,7 @@ export function listenToKeys({ model, choose, step, freeze, slot }) {
     if (ARROWS[event.key]) step(ARROWS[event.key].map((mm) => mm * (event.shiftKey ? 0.1 : 1)));
     else if (event.key === ' ' && !control) freeze();
     else if (event.key === '.') slot();
+    else if (event.key === 'n' && model.hello.arena) serve();
     else if (event.key.trim() && number >= 0 && number < model.hello.pads.length) choose(number);
     else return;
     event.preventDefault();

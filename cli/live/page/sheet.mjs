@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // The whole sheet to scale: terminals, walls, pads with their fingers, errors and forces.
 
+import { drawArena, drawPuck, drawScore } from './arena.mjs';
 import { arrow, colours, disc, fixed, forceVector, label, line, ring, View } from './draw.mjs';
 import { finger, place } from './model.mjs';
 
@@ -34,12 +35,15 @@ export class Sheet extends View {
     this.radius = Math.max(5, (hello.pad_diameter_mm / 2) * this.scale);
     const g = this.begin(Math.round(hello.sheet_mm[1] * this.scale + 2 * this.margin));
     this.drawSheet(g, reach);
+    drawArena(g, this);
     if (!shown) return;
     const pads = shown.pads.filter(Boolean);
     this.walls(g, [0, 0], reach, 8);
     this.drawTerminals(g, shown);
     if (!still.matches) this.drawTrails(g, pads);
     for (const pad of pads) this.drawPad(g, pad);
+    drawPuck(g, this);
+    drawScore(g, this);
     for (const pad of pads) this.drawLabel(g, pad);
   }
 
@@ -100,7 +104,9 @@ export class Sheet extends View {
     const [at, align] = [x + side * (this.radius + 9), side < 0 ? 'right' : 'left'];
     const style = pad.pad === this.model.pad ? '600 ' : '';
     const text = `${fixed(pad.force_n, 2)} N · ${this.model.state(pad)}`;
-    if (this.width < NARROW) return label(g, `${pad.pad + 1}  ${text}`, at, y - 4, colours.ink, align, style);
+    // Mallets meet, and so would their labels.
+    const short = this.model.hello.arena ? '' : `  ${text}`;
+    if (this.width < NARROW) return label(g, `${pad.pad + 1}${short}`, at, y - 4, colours.ink, align, style);
     label(g, this.model.title(pad.pad), at, y - 20, colours.ink, align, style);
     return label(g, text, at, y - 6, colours.muted, align);
   }

@@ -12,7 +12,7 @@ const wide = window.matchMedia('(min-width: 65rem)');
  * The strips of a source. A line has a name, colour, column and dash, a limit its value and name; `least` is the
  * smallest range of the axis, which holds zero unless the strip is `free`.
  */
-function strips({ limits, truth, walls, controller, hand }) {
+function strips({ limits, truth, walls, arena, controller, hand }) {
   const strip = (title, unit, decimals, least, words, lines, more) => ({ title, unit, decimals, least, words, lines, ...more });
   const one = (colour, column) => [['', colour, column]];
   const measured = (column) => [['measured', 'measured', column], ...(truth ? [['true', 'true', `true_${column}`]] : [])];
@@ -26,7 +26,7 @@ function strips({ limits, truth, walls, controller, hand }) {
   return [
     strip('Haptic force', 'N', 3, 0.2, 'Friction that the voltage adds. Target: what wall or controller ask for.',
       [...measured('force_n'), ...asked('target', 'target_n')]),
-    walls.length ? depth : hand ? ahead : load,
+    walls.length || arena ? depth : hand ? ahead : load,
     strip('Haptic voltage', 'V rms', 0, 50, 'Across the pad. Drive: what the controller asks for; rail: its limit.',
       [...measured('haptic_v_rms'), ...asked('drive', 'drive_v_rms')], limit(limits.rail_v, 'rail')),
     strip('Capacitance', 'pF', 1, 2, 'Between pad and sheet. It rises as the gap closes.', measured('capacitance_pf'), { free: true }),

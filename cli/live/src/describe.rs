@@ -9,12 +9,14 @@ use hapticore_scene::{Measure, Quantity, Scene, Setpoint, gallery};
 
 use crate::presets;
 use crate::protocol::{
-    COLUMNS, Hello, InputInfo, Limits, Opening, Pad, SettingInfo, SlotCodes, VERSION, Wall,
+    Arena, COLUMNS, Hello, InputInfo, Limits, Opening, Pad, SettingInfo, SlotCodes, VERSION, Wall,
 };
 
 /// Keys of scenes that are worth changing: table, key, unit, label, least and largest value of a slider.
-const SETTINGS: [(&str, &str, &str, [f64; 2]); 8] = [
+const SETTINGS: [(&str, &str, &str, [f64; 2]); 10] = [
     ("wall.stiffness_n_per_mm", "N/mm", "Stiffness of the wall", [0.05, 2.0]),
+    ("arena.puck_g", "g", "Mass of the puck", [5.0, 100.0]),
+    ("arena.impact_ms", "ms", "How long an impact is felt", [5.0, 100.0]),
     ("control.rail_v", "V", "Largest drive, RMS", [50.0, 500.0]),
     ("device.mu", "", "Friction coefficient", [0.02, 0.5]),
     ("halves.mismatch_percent", "%", "Mismatch of the electrodes", [-5.0, 5.0]),
@@ -66,6 +68,7 @@ pub fn hello(opening: &Opening, fidelity: Fidelity, stepper: &Stepper) -> Result
         hand: document.contains_key("hand"),
         controller: case.plan().is_some(),
         walls: walls(stepper),
+        arena: arena(stepper),
         limits: limits(scene, index, stepper),
         truth: true,
         speed: 1.0,
@@ -148,7 +151,11 @@ fn settings(document: &toml::Table) -> Vec<SettingInfo> {
     SETTINGS.iter().filter_map(of_table).collect()
 }
 
+/// Of an arena each pad has walls of its own, which are those of its reach.
 fn walls(stepper: &Stepper) -> Vec<Wall> {
+    if stepper.game().is_some() {
+        return Vec::new();
+    }
     let Some(wall) = stepper.case().plan().and_then(|plan| plan.wall.as_ref()) else {
         return Vec::new();
     };
@@ -160,6 +167,18 @@ fn walls(stepper: &Stepper) -> Vec<Wall> {
         inside: side(along_y.above),
     });
     std::iter::once(x).chain(y).collect()
+}
+
+fn arena(stepper: &Stepper) -> Option<Arena> {
+    let game = stepper.game()?;
+    let rules = game.rules();
+    Some(Arena {
+        half_mm: rules.half_mm,
+        goal_half_mm: rules.goal_half_mm,
+        mallet_radius_mm: rules.mallet_radius_mm,
+        puck_radius_mm: rules.puck_radius_mm,
+        reach_mm: game.reaches_mm().collect(),
+    })
 }
 
 fn limits(scene: &Scene, index: usize, stepper: &Stepper) -> Limits {

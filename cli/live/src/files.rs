@@ -28,6 +28,7 @@ files! {
     "/", HTML, "index.html";
     "/page.mjs", SCRIPT, "page.mjs";
     "/protocol.mjs", SCRIPT, "protocol.mjs";
+    "/arena.mjs", SCRIPT, "arena.mjs";
     "/board.mjs", SCRIPT, "board.mjs";
     "/model.mjs", SCRIPT, "model.mjs";
     "/controls.mjs", SCRIPT, "controls.mjs";

@@ -12,6 +12,9 @@ use crate::state::{Signs, Watch};
 /// Parts of a pad whose last one alone brakes.
 const STRIPS: usize = 3;
 
+/// By how much a force is more than that of impacts where a wall brakes, N: more than a word's rounding.
+const ROUNDING_N: f64 = 1e-3;
+
 /// Least force of a hand that leaves a wall, N.
 const PULLS_N: f64 = 0.01;
 
@@ -137,10 +140,13 @@ impl Pads {
         let measured = [row.x_mm, row.y_mm, row.force_n, row.capacitance_pf];
         // Where walls are off, a pad with a target of its own is in none.
         let has_wall = walls.iter().any(|wall| wall.mm.is_some());
+        // An impact is no wall.
+        let impact_n = last.game.map_or(0.0, |game| game.impact_n + ROUNDING_N);
         // A board says what it drives, not the force that the wall asks for.
         let is_within = row.depth_mm.is_some_and(|mm| mm > 0.0);
         let gives = |driven: &Driven| {
-            driven.target_n > 0.0 || last.truth.is_none() && is_within && driven.drive_v_rms > 0.0
+            driven.target_n > impact_n
+                || last.truth.is_none() && is_within && driven.drive_v_rms > 0.0
         };
         let brakes = |driven: &Driven| has_wall && driven.free == Some(false) && gives(driven);
         let is_short = |driven: &Driven| driven.limited && driven.drive_v_rms > 0.0;

@@ -8,7 +8,7 @@ const STIRRED: &str = "{ timeline = { x_mm = [[0, 8], [0.1, 11], [0.2, 5], [0.3,
 
 /// All presets.
 pub fn all() -> Vec<Preset> {
-    vec![wall(), corner(), hold(), pull_in(), coupled(), rules()]
+    vec![wall(), corner(), hold(), pull_in(), coupled(), rules(), air_hockey()]
 }
 
 fn preset(
@@ -77,6 +77,25 @@ fn coupled() -> Preset {
     let hint = "Each pad draws current from the others through the sheet: drag one to an edge and see its position error. Case \
                 \"cancelled\" takes the crosstalk out.";
     preset(("coupled", "Four coupled pads", hint), "four-pads", &set, Some("raw"))
+}
+
+fn air_hockey() -> Preset {
+    let stirred = |x_mm: f64| {
+        let points = [(0.0, 0.0), (0.1, 6.0), (0.2, -6.0), (0.3, 6.0), (0.4, 0.0)];
+        let along = |of: f64| {
+            let points = points.map(|(time_s, by_mm)| format!("[{time_s}, {}]", of + by_mm));
+            format!("[{}]", points.join(", "))
+        };
+        format!("{{ timeline = {{ x_mm = {}, y_mm = {} }} }}", along(x_mm), along(0.0))
+    };
+    let set = [
+        ("pad.0.position_mm", stirred(-150.0)),
+        ("pad.1.position_mm", stirred(150.0)),
+        ("arena.puck_mm", "[0, 0]".into()),
+    ];
+    let hint = "Strike the puck with either mallet, two fingers for both: each impact brakes the mallet for 30 ms, and so do the \
+                walls of its half. Key n serves a new puck.";
+    preset(("air-hockey", "Air hockey", hint), "air-hockey", &set, None)
 }
 
 fn rules() -> Preset {

@@ -11,6 +11,7 @@
 //! | `{"type":"set","pad":0,"load_g":60}` | sets one input of `hello.inputs`, without its `pad.` |
 //! | `{"type":"target","pad":0,"n":0.3}` | force that the controller gives, N |
 //! | `{"type":"wall","x_mm":-1.5,"y_mm":0}` | moves the walls; `"mm"` is `"x_mm"`; `"off":true` takes them away |
+//! | `{"type":"serve"}` | serves a new puck, in a scene with an arena |
 //! | `{"type":"arm","on":true}` | lets a board's drive follow its targets, while this client stays; `false` takes it to 0 V |
 //! | `{"type":"alive"}` | sign of life: a client that has armed a drive and sends nothing for 1 s takes it to 0 V |
 //! | `{"type":"disable"}` | disables a board: pads open, drives at 0 V |
@@ -105,6 +106,8 @@ pub enum Command {
         #[serde(skip_serializing_if = "std::ops::Not::not")]
         off: bool,
     },
+    /// Serves a new puck, where the scene has an arena.
+    Serve,
     /// Lets a board's drive follow its targets, or takes it to 0 V.
     Arm {
         /// It follows.
@@ -336,6 +339,9 @@ pub struct Hello {
     pub controller: bool,
     /// Walls, along x first.
     pub walls: Vec<Wall>,
+    /// The table of air hockey, where the scene has one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub arena: Option<Arena>,
     /// What the scene allows.
     pub limits: Limits,
     /// `frames` have `true_…` columns.
@@ -418,6 +424,32 @@ pub struct Wall {
     pub inside: &'static str,
 }
 
+/// A table of air hockey, whose mallets are the pads. Its centre is the sheet's.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Arena {
+    /// Half of its length and of its height, mm.
+    pub half_mm: [f64; 2],
+    /// Half of a goal's width, mm.
+    pub goal_half_mm: f64,
+    /// Radius of a mallet, mm.
+    pub mallet_radius_mm: f64,
+    /// Radius of the puck, mm.
+    pub puck_radius_mm: f64,
+    /// Where the centre of each pad may be: from and to along x, then along y, mm. Beyond are its walls.
+    pub reach_mm: Vec<[[f64; 2]; 2]>,
+}
+
+/// The puck and the score.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Game {
+    /// Where the puck is, mm right of the sheet's centre and above it.
+    pub puck_mm: [f64; 2],
+    /// Its velocity, mm/s.
+    pub puck_mm_s: [f64; 2],
+    /// Goals of the left player and of the right one.
+    pub score: [u32; 2],
+}
+
 /// What a scene allows.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct Limits {
@@ -445,6 +477,9 @@ pub struct Frames {
     pub voltages: Vec<f64>,
     /// Surfaces of the walls, mm; `null` where a wall is off.
     pub walls: Vec<Option<f64>>,
+    /// The puck and the score, where the scene has an arena.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub game: Option<Game>,
 }
 
 /// How the source keeps up.

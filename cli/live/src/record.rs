@@ -195,6 +195,9 @@ impl Log {
             let written = self.wall(wall, [true, quadrants], &mut notes)?;
             wall.extend(written);
         }
+        if let Some(arena) = root.get_mut("arena").and_then(Value::as_table_mut) {
+            self.serves(arena);
+        }
         Ok(notes)
     }
 
@@ -232,6 +235,22 @@ impl Log {
             written.push((key.to_string(), steps.written(&script, notes)));
         }
         Ok(written)
+    }
+
+    /// When pucks were served, besides those of the scene.
+    fn serves(&self, arena: &mut Table) {
+        let served = self.entries.iter().filter(|entry| entry.input == Input::Serve);
+        let mut serve_s: Vec<f64> =
+            served.map(|entry| self.time_s(entry.slot, WITHIN_SLOT)).collect();
+        if serve_s.is_empty() {
+            return;
+        }
+        let scripted = arena.get("serve_s").and_then(Value::as_array).into_iter().flatten();
+        serve_s.extend(
+            scripted.filter_map(|of| of.as_float().or(of.as_integer().map(|whole| whole as f64))),
+        );
+        serve_s.sort_by(f64::total_cmp);
+        arena.insert("serve_s".into(), serve_s.into());
     }
 
     /// How the finger of a pad was led.

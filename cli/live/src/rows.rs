@@ -2,7 +2,7 @@
 //! Every slot for programs: the columns that a client has subscribed to.
 
 use hapticore_host::QUANTITIES;
-use hapticore_run::record::{Driven, Row, Truth};
+use hapticore_run::record::{Driven, GameRow, Row, Truth};
 
 use crate::client::{Bytes, binary_frame, text_frame};
 use crate::protocol::{Answer, Every, Format, Subscription};
@@ -27,6 +27,7 @@ pub fn names() -> Vec<String> {
     own.chain(flags)
         .chain(quantities.clone().map(String::from))
         .chain(quantities.map(|name| format!("true_{name}")))
+        .chain(GAME.iter().map(|(name, _)| name.to_string()))
         .collect()
 }
 
@@ -53,6 +54,16 @@ const OWN: [Own; 15] = [
     ("released", |_, row| driven(row, |driven| driven.free.map_or(f64::NAN, f64::from))),
 ];
 
+/// Of scenes with an arena; behind all others.
+const GAME: [Own; 6] = [
+    ("puck_x_mm", |_, row| game(row, |game| game.puck_mm[0])),
+    ("puck_y_mm", |_, row| game(row, |game| game.puck_mm[1])),
+    ("puck_mm_s", |_, row| game(row, |game| game.puck_mm_s)),
+    ("impact_n", |_, row| game(row, |game| game.impact_n)),
+    ("score_left", |_, row| game(row, |game| f64::from(game.score[0]))),
+    ("score_right", |_, row| game(row, |game| f64::from(game.score[1]))),
+];
+
 fn truth(row: &Row, of: fn(&Truth) -> f64) -> f64 {
     row.truth.as_ref().map_or(f64::NAN, of)
 }
@@ -61,9 +72,13 @@ fn driven(row: &Row, of: fn(&Driven) -> f64) -> f64 {
     row.driven.as_ref().map_or(f64::NAN, of)
 }
 
+fn game(row: &Row, of: fn(&GameRow) -> f64) -> f64 {
+    row.game.as_ref().map_or(f64::NAN, of)
+}
+
 /// How the value of a column is taken; none where there is no such column.
 fn getter(name: &str) -> Option<Get> {
-    if let Some((_, get)) = OWN.iter().find(|(own, _)| *own == name) {
+    if let Some((_, get)) = OWN.iter().chain(&GAME).find(|(own, _)| *own == name) {
         return Some(Box::new(get));
     }
     if let Some(flag) = FLAGS.into_iter().find(|flag| *flag == name) {

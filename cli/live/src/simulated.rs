@@ -7,7 +7,9 @@ use hapticore_run::stepper::{Input, Stepper};
 
 use crate::describe;
 use crate::pads::{Pads, Surface};
-use crate::protocol::{Command, Frames, Hello, Opening, Recorded, Recording, Setting, SlotCodes};
+use crate::protocol::{
+    Command, Frames, Game, Hello, Opening, Recorded, Recording, Setting, SlotCodes,
+};
 use crate::record::Log;
 use crate::source::{Source, Step};
 
@@ -26,6 +28,8 @@ pub struct Simulated {
     pushes_n: Vec<[f64; 2]>,
     /// Rows that have been finished.
     rows: usize,
+    /// Goals of the left player and of the right one.
+    score: [u32; 2],
 }
 
 impl Simulated {
@@ -52,6 +56,7 @@ impl Simulated {
             log,
             pushes_n: vec![[0.0; 2]; pads],
             rows: 0,
+            score: [0; 2],
             hello,
             stepper,
         })
@@ -83,13 +88,35 @@ impl Simulated {
             },
             Command::Target { pad, n } => Input::Target { pad, newtons: n },
             Command::Wall { x_mm, y_mm, off } => Input::Wall { x_mm, y_mm, off },
+            Command::Serve => Input::Serve,
             _ => return None,
         })
     }
 
     fn set_walls(&mut self) {
+        if let Some(own) = self.arena_walls() {
+            self.walls.iter_mut().zip(own).for_each(|(wall, own)| *wall = own);
+            return;
+        }
         let mm = self.stepper.walls_mm();
         self.walls.iter_mut().for_each(|wall| wall.mm = mm[wall.axis]);
+    }
+
+    /// The walls of the pad of the next slot, where each has its own.
+    fn arena_walls(&self) -> Option<[Surface; 2]> {
+        let plant = self.stepper.plant();
+        let pad = self.stepper.slot() % plant.served() / plant.parts();
+        let own = self.stepper.arena_walls(pad)?;
+        Some([0, 1].map(|axis| Surface { axis, mm: Some(own[axis].mm), above: own[axis].right }))
+    }
+
+    /// A goal since the last slot, in words.
+    fn goal(&mut self) -> Option<String> {
+        let score = self.stepper.game()?.score();
+        let before = std::mem::replace(&mut self.score, score);
+        let [left, right] = score;
+        let scorer = if score[0] > before[0] { "left" } else { "right" };
+        (score != before).then(|| format!("Goal of the {scorer} player: {left} to {right}"))
     }
 }
 
@@ -127,7 +154,7 @@ impl Source for Simulated {
         };
         let event = self.pads.add(&row, &self.walls);
         self.rows += 1;
-        Ok(Step { row: Some((self.rows - 1, row)), event, ..Step::default() })
+        Ok(Step { row: Some((self.rows - 1, row)), event, note: self.goal(), ..Step::default() })
     }
 
     fn frames(&self) -> Frames {
@@ -141,7 +168,12 @@ impl Source for Simulated {
             pads: self.pads.rows(time_s),
             terminals,
             voltages,
-            walls: self.walls.iter().map(|wall| mm[wall.axis]).collect(),
+            walls: self.hello.walls.iter().zip(mm).map(|(_, mm)| mm).collect(),
+            game: self.stepper.game().map(|game| Game {
+                puck_mm: game.puck().place_mm,
+                puck_mm_s: game.puck().velocity_mm_s,
+                score: game.score(),
+            }),
         }
     }
 

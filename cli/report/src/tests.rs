@@ -100,6 +100,7 @@ fn row(n: usize) -> Row {
         laws: Some(Laws { eq8_n: 0.11, table_n: measured.force_n }),
         truth,
         driven,
+        game: None,
         reference,
     }
 }

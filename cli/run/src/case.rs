@@ -450,6 +450,14 @@ impl Case {
                 "pad.{pad}.target_n: expected at most {most_n:.3} N, what the controller's word holds, got {target_n}"
             );
         }
+        if let Some(arena) = &self.scene.cases[self.index].arena {
+            let most_n = control.target.real(control.target.max_code() as i64);
+            ensure!(
+                arena.force_n <= most_n,
+                "arena.force_n: expected at most {most_n:.3} N, what the controller's word holds, got {}",
+                arena.force_n
+            );
+        }
         let calibrated = plant.as_calibrated()?;
         control::tuning(self, plan, calibrated.as_ref().unwrap_or(plant)).map(Some)
     }

@@ -8,12 +8,13 @@
 //! | a scene | besides, quantities as they are (`true_…`), case, point of the sweep, load, friction, swept settings |
 //! | a scene with a controller | besides, target and drive |
 //! | a scene with walls | besides, whether the user leaves the wall, force of the hand, friction of the haptic force |
+//! | a scene with an arena | besides, the puck, the force of impacts, the score |
 
 use std::io::{self, Write};
 
 use hapticore_host::{COLUMNS, QUANTITIES};
 
-use crate::record::{Driven, Record, Row, Truth};
+use crate::record::{Driven, GameRow, Record, Row, Truth};
 
 /// A column of rows.
 #[derive(Debug, Clone)]
@@ -47,6 +48,8 @@ pub struct OfScene {
     pub driven: bool,
     /// Whether they meet walls.
     pub walled: bool,
+    /// Whether they play air hockey.
+    pub plays: bool,
 }
 
 impl OfScene {
@@ -58,6 +61,7 @@ impl OfScene {
             swept: record.swept.clone(),
             driven: record.rows.iter().any(|row| row.driven.is_some()),
             walled: record.rows.iter().any(walled),
+            plays: record.rows.iter().any(|row| row.game.is_some()),
         }
     }
 }
@@ -76,6 +80,7 @@ enum Of {
     TrueFlag(fn(&Truth) -> bool),
     Driven(fn(&Driven) -> f64),
     DrivenFlag(fn(&Driven) -> bool),
+    Game(fn(&GameRow) -> f64),
 }
 
 /// Columns of rows, in the order of `frames.csv`.
@@ -94,6 +99,7 @@ impl Columns {
             columns.truth(&scene.swept);
             columns.driven(scene.driven);
             columns.walled(scene.walled);
+            columns.game(scene.plays);
             columns.cases = scene.cases;
         }
         columns
@@ -131,6 +137,7 @@ impl Columns {
             Of::TrueFlag(of) => Value::Flag(truth.is_some_and(of)),
             Of::Driven(of) => Value::Number(of(&driven())),
             Of::DrivenFlag(of) => Value::Flag(of(&driven())),
+            Of::Game(of) => Value::Number(row.game.as_ref().map_or(f64::NAN, of)),
         }
     }
 
@@ -145,7 +152,8 @@ impl Columns {
             | Of::True(_)
             | Of::Truth(_)
             | Of::Set(_)
-            | Of::Driven(_) => Value::Number(0.0),
+            | Of::Driven(_)
+            | Of::Game(_) => Value::Number(0.0),
         }
     }
 
@@ -226,6 +234,17 @@ impl Columns {
             self.add("true_haptic_friction_n", Of::Truth(|truth| truth.haptic_friction_n));
         }
     }
+
+    fn game(&mut self, plays: bool) {
+        if plays {
+            self.add("puck_x_mm", Of::Game(|game| game.puck_mm[0]));
+            self.add("puck_y_mm", Of::Game(|game| game.puck_mm[1]));
+            self.add("puck_mm_s", Of::Game(|game| game.puck_mm_s));
+            self.add("impact_n", Of::Game(|game| game.impact_n));
+            self.add("score_left", Of::Game(|game| f64::from(game.score[0])));
+            self.add("score_right", Of::Game(|game| f64::from(game.score[1])));
+        }
+    }
 }
 
 /// A text as a field of CSV.
@@ -268,6 +287,17 @@ mod tests {
     }
 
     #[test]
+    fn a_game_adds_columns_behind_those_of_walls() {
+        let scene = OfScene { driven: true, walled: true, plays: true, ..OfScene::default() };
+        let columns = Columns::new(Some(scene));
+        let names = names(&columns);
+        let at = names.iter().position(|name| *name == "true_haptic_friction_n").expect("a wall's");
+        let of_game =
+            ["puck_x_mm", "puck_y_mm", "puck_mm_s", "impact_n", "score_left", "score_right"];
+        assert_eq!(names[at + 1..], of_game);
+    }
+
+    #[test]
     fn a_row_without_a_truth_has_no_number_there() {
         let columns = Columns::new(Some(OfScene::default()));
         let row = Row {
@@ -279,6 +309,7 @@ mod tests {
             laws: None,
             truth: None,
             driven: None,
+            game: None,
             reference: None,
         };
         let value = |name| {

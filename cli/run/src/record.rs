@@ -33,6 +33,9 @@ pub struct Row {
     pub truth: Option<Truth>,
     /// What a controller made of it, where there is one.
     pub driven: Option<Driven>,
+    /// The game that the pads play, where the scene has an arena.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub game: Option<GameRow>,
     /// The floating-point reference on the same samples, and eq. 6 alone, where they were asked
     /// for.
     pub reference: Option<Reference>,
@@ -107,6 +110,19 @@ pub struct Driven {
     /// The force that the core measured, N, where the host takes out of frames what other pads did to them: a controller
     /// acts on this one.
     pub core_n: Option<f64>,
+}
+
+/// A game of air hockey as a slot begins.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+pub struct GameRow {
+    /// Where the puck is, mm right of the sheet's centre and above it.
+    pub puck_mm: [f64; 2],
+    /// Its speed, mm/s.
+    pub puck_mm_s: f64,
+    /// The force of impacts on the slot's pad, N.
+    pub impact_n: f64,
+    /// Goals of the left player and of the right one.
+    pub score: [u32; 2],
 }
 
 /// What the plant knows of a slot.

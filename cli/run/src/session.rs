@@ -172,6 +172,7 @@ impl Session {
             laws: None,
             truth,
             driven: None,
+            game: None,
             reference,
         });
         let Some(measurement) = self.engine.slot(slot) else { return Ok(None) };

@@ -201,7 +201,9 @@ fn findings(scene: &Scene, cases: &[Case], rows: &[Vec<Row>]) -> Findings {
         let of = &scene.cases[case.index];
         let pads = of.served_names();
         findings.add_flags(case.name(), &pads, rows);
-        let wall = of.control.as_ref().and_then(|plan| plan.wall.as_ref());
+        // The walls of an arena are those of each pad, on either side of it.
+        let walled = of.control.as_ref().filter(|_| of.arena.is_none());
+        let wall = walled.and_then(|plan| plan.wall.as_ref());
         let parts_mm = of.parts_mm();
         findings.add_tracking(findings::of_drives(
             (case.name(), &pads),

@@ -8,6 +8,9 @@
 //!            └───────── drive of the pad ──┘
 //! ```
 //!
+//! Where the scene has an `[arena]`, the stepper is the game's host too: after each slot it plays on and sets targets and
+//! walls of the pads (`stepper/arena.rs`).
+//!
 //! An input is applied between two slots: it takes effect when the next slot begins. A log of slot
 //! numbers and inputs, applied to another stepper of the same case, gives the same rows to the bit.
 
@@ -15,7 +18,9 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 
 use anyhow::{Result, bail};
+use hapticore_contract::control::Surface;
 use hapticore_contract::profile::Profile;
+use hapticore_host::air_hockey::Game;
 use hapticore_scene::{EffectCost, Plant, Scene, Timing};
 
 use crate::case::{Case, OfPlant, record_truth};
@@ -27,9 +32,11 @@ use crate::maker::Maker;
 use crate::record::{Driven, Row, SignalError};
 use crate::session::Session;
 
+mod arena;
 mod input;
 
 pub use crate::session::Options;
+use arena::Arena;
 pub use input::{Input, InputError, RELEASE_S};
 
 /// A case that is stepped slot by slot: plant, core, and what closes its force loop.
@@ -55,6 +62,7 @@ pub struct Stepper {
     options: Options,
     source: Source,
     session: Session,
+    arena: Option<Arena>,
     limits: Option<Limits>,
     /// Drives are prompt; the row of a short slot comes while the next window is sampled.
     drives: VecDeque<Option<Driven>>,
@@ -117,6 +125,9 @@ impl Stepper {
     ) -> Result<Stepper> {
         let tuning = case.tuning(&plant)?;
         let limits = case.limits(&plant)?;
+        let of_scene = &case.scene.cases[case.index];
+        let arena = of_scene.arena.as_ref();
+        let arena = arena.map(|plan| Arena::new(plan, &of_scene.starts_mm(), plant.parts()));
         let session = case.session(OfPlant::new(&plant), tuning.as_ref(), options)?;
         let maker = case.maker(plant, whole);
         let source = match tuning {
@@ -128,6 +139,7 @@ impl Stepper {
             options,
             source,
             session,
+            arena,
             limits,
             drives: VecDeque::new(),
             next: 0,
@@ -195,6 +207,10 @@ impl Stepper {
 
     fn step_closed(&mut self) -> Result<Option<Row>> {
         let Source::Closed(plant) = &mut self.source else { return Ok(None) };
+        if let Some(arena) = &mut self.arena {
+            let part = self.next % plant.device().served();
+            arena.begin(part, self.case.clock.seconds(self.next + 1), plant.inputs());
+        }
         let made = plant.slot(self.next);
         self.session.set_target(made.slot.pad, made.target_n)?;
         if let Some(surface) = made.surface {
@@ -203,7 +219,11 @@ impl Stepper {
         let row = self.session.slot(&made.slot, Some(record_truth(&made.truth)))?;
         self.drives.push_back(plant.drive(&made, self.session.take_drive())?);
         (self.peak, self.last) = (made.peak, Some(made.slot));
-        row.map(|row| self.complete(row)).transpose()
+        let row = row.map(|row| self.complete(row)).transpose()?;
+        if let Some(arena) = &mut self.arena {
+            arena.play(self.next);
+        }
+        Ok(row)
     }
 
     /// A row with its drive and what limits it.
@@ -211,6 +231,9 @@ impl Stepper {
         let core_n = self.session.core_force_n();
         let driven = self.drives.pop_front().flatten();
         row.driven = driven.map(|driven| Driven { core_n, ..driven });
+        if let Some(arena) = &mut self.arena {
+            arena.complete(&mut row);
+        }
         if let Some(limits) = &mut self.limits {
             limits.mark(&mut row);
         }
@@ -272,12 +295,25 @@ impl Stepper {
     }
 
     /// Where the walls along x and y begin now, mm from the sheet's centre; none where there is no such
-    /// wall, or where it is off.
+    /// wall, where it is off, or where each pad has [its own](Self::arena_walls).
     pub fn walls_mm(&self) -> [Option<f64>; 2] {
         match &self.source {
-            Source::Open(_) => [None; 2],
-            Source::Closed(plant) => plant.walls_mm(self.time_s()),
+            Source::Closed(plant) if self.arena.is_none() => plant.walls_mm(self.time_s()),
+            _ => [None; 2],
         }
+    }
+
+    /// The game, where the scene has an `[arena]`.
+    pub fn game(&self) -> Option<&Game> {
+        self.arena.as_ref().map(Arena::game)
+    }
+
+    /// The walls along x and y of a pad of the scene, where the scene has an `[arena]`.
+    ///
+    /// # Panics
+    /// Where there is no such pad.
+    pub fn arena_walls(&self, pad: usize) -> Option<[Surface; 2]> {
+        self.arena.as_ref().map(|arena| arena.surfaces(pad))
     }
 
     /// Effects of the plant and what they cost, where it is metered.

@@ -66,7 +66,7 @@ fn stepping_every_bundled_case_gives_the_rows_of_its_run() {
     for (name, _) in gallery::all() {
         let (scene, profile) = load(name, &[]);
         let slots = match *name {
-            "peg" | "wall-2d" => 400,
+            "peg" | "wall-2d" | "air-hockey" => 400,
             "hockey" | "fig9" | "fig15" => 200,
             _ => 24,
         };
@@ -78,7 +78,9 @@ fn stepping_every_bundled_case_gives_the_rows_of_its_run() {
 
 #[test]
 fn stepping_at_other_fidelities_gives_the_rows_of_the_run() {
-    for (name, slots) in [("hockey", 9), ("fig9", 9), ("peg", 17), ("wall-2d", 9)] {
+    for (name, slots) in
+        [("hockey", 9), ("fig9", 9), ("peg", 17), ("wall-2d", 9), ("air-hockey", 17)]
+    {
         let (scene, profile) = load(name, &[]);
         for fidelity in [Fidelity::Float, Fidelity::Clock] {
             check(&scene, 0, &profile, (fidelity, slots));
@@ -178,7 +180,7 @@ fn draw(random: &mut Draw) -> Input {
     let value = within(0.0, 1.0);
     let within_s = within(0.002, 0.03);
     let pad = random.below(5);
-    match random.below(9) {
+    match random.below(10) {
         0..3 => Input::Lead { pad, to_mm: near, within_s },
         3 => Input::Release { pad },
         4 => Input::Press { pad, load_g: 200.0 * value - 5.0 },
@@ -189,13 +191,15 @@ fn draw(random: &mut Draw) -> Input {
             1 => Input::Wall { x_mm: None, y_mm: Some(near[1]), off: false },
             _ => Input::Wall { x_mm: Some(near[0]), y_mm: None, off: false },
         },
+        8 => Input::Serve,
         _ => Input::Voltage { pad, v_rms: 400.0 * value - 10.0 },
     }
 }
 
 #[test]
 fn a_log_of_random_inputs_replays_to_the_bit() {
-    for (seed, name) in ["peg", "wall-2d", "hockey", "fig9", "four-pads"].into_iter().enumerate() {
+    let names = ["peg", "wall-2d", "hockey", "fig9", "four-pads", "air-hockey"];
+    for (seed, name) in names.into_iter().enumerate() {
         let mut random = Draw(seed as u64);
         let mut live = stepper(name, &[], FIXED);
         let (mut rows, mut log, mut refused) = (Vec::new(), Vec::new(), 0);

@@ -92,8 +92,7 @@ impl Line for Tcp {
         }
         Err(match last.kind() {
             io::ErrorKind::ConnectionRefused => {
-                let cure =
-                    "nothing listens there: start ser2net or hapticore host virtual --serve first";
+                let cure = "nothing listens there: start ser2net, or serve a virtual board, first";
                 io::Error::new(last.kind(), cure)
             }
             _ => last,

@@ -29,8 +29,8 @@ pub(super) fn faults(faults: Faults) -> String {
 /// Why frames do not come.
 pub(super) fn dropped(counts: &Statistics, baud: u32) -> String {
     format!(
-        "the board has dropped {} of {} frames: its line of {baud} baud carries no more; print it for a faster one \
-         (hapticore hdl --baud) and connect with --baud",
+        "the board has dropped {} of {} frames: its line of {baud} baud carries no more; print it for a faster \
+         line, and connect at that rate",
         counts.dropped,
         counts.dropped + counts.frames
     )

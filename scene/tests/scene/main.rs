@@ -2,6 +2,7 @@
 //! The simulated device as its users see it, in one program: a program of its own for each file takes
 //! long to build.
 
+mod arena;
 mod budget;
 mod charge;
 mod common;

@@ -43,6 +43,7 @@ impl Board {
             laws: None,
             truth: None,
             driven,
+            game: None,
             reference: None,
         }
     }

@@ -29,12 +29,13 @@ pub struct BadRequest {
 }
 
 /// The types of commands.
-const TYPES: [&str; 15] = [
+const TYPES: [&str; 16] = [
     "lead",
     "release",
     "set",
     "target",
     "wall",
+    "serve",
     "arm",
     "alive",
     "disable",
@@ -104,6 +105,7 @@ impl Fields<'_> {
             "set" => Command::Set { pad: self.pad()?, setting: self.setting()? },
             "target" => Command::Target { pad: self.pad()?, n: self.number("n")? },
             "wall" => self.wall()?,
+            "serve" => Command::Serve,
             "arm" => Command::Arm { on: self.required("on", "true or false", Value::as_bool)? },
             "alive" => Command::Alive,
             "disable" => Command::Disable,

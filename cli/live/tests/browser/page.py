@@ -313,8 +313,8 @@ def presets_open(browser, url, _):
     """Every preset opens, shows its hint, and frames follow."""
     with Visit(browser, url) as visit:
         buttons = visit.page.locator("#presets button")
-        assert buttons.count() == 6
-        for k in range(6):
+        assert buttons.count() == 7
+        for k in range(7):
             buttons.nth(k).click()
             expect(buttons.nth(k)).to_have_attribute("aria-pressed", "true")
             visit.wait("document.querySelector('#notice').hidden")
@@ -325,28 +325,73 @@ def presets_open(browser, url, _):
         visit.wait("location.search.includes('scene=peg')")
 
 
+def strike(visit):
+    """Drags the left mallet into the puck, at the middle of the table, until the puck goes to the right."""
+    visit.wait("parseFloat(document.querySelector('#slot-now').textContent) > 0.6")
+    x, y = visit.pad_at(0)
+    scale = float(visit.page.locator("#sheet").get_attribute("data-scale"))
+    mouse = visit.page.mouse
+    mouse.move(x, y)
+    mouse.down()
+    goes_right = "parseFloat(document.querySelector('#sheet').dataset.speed) > 20"
+    for step in range(31):
+        mouse.move(x + 4.5 * step * scale, y)
+        visit.page.wait_for_timeout(15)
+        if visit.page.evaluate(goes_right):
+            return
+    visit.wait(goes_right)
+
+
+def let_go(visit):
+    """Gives the left mallet back to the scene, which has it far from the middle."""
+    visit.page.mouse.up()
+    visit.page.get_by_text("Let go").click()
+    visit.wait("parseFloat(document.querySelector('#pads tr').cells[7].innerText.replace('−', '-')) < -100")
+
+
+def a_strike_sends_the_puck(browser, url, _):
+    """A mallet that is dragged into the puck sends it off; the resting mallet opposite, or the table's end, turns it round."""
+    with Visit(browser, url, "?preset=air-hockey") as visit:
+        sheet = visit.page.locator("#sheet")
+        expect(visit.page.locator("#serve")).to_be_visible()
+        expect(sheet).to_have_attribute("data-puck", "0,0")
+        expect(visit.page.locator("#score")).to_have_text("0 : 0")
+        strike(visit)
+        assert float(sheet.get_attribute("data-puck").split(",")[0]) > 0
+        visit.wait("parseFloat(document.querySelector('#sheet').dataset.speed) <= 0")
+        let_go(visit)
+        visit.page.locator("#serve").click()
+        expect(sheet).to_have_attribute("data-puck", "0,0")
+        strike(visit)
+        let_go(visit)
+        visit.page.keyboard.press("n")
+        expect(sheet).to_have_attribute("data-puck", "0,0")
+    with Visit(browser, url) as visit:
+        expect(visit.page.locator("#serve")).to_be_hidden()
+
+
 def axe_finds_nothing(browser, url, _):
     """axe-core finds no violation at 390 and 1280 pixels, light and dark."""
     axe = pathlib.Path(importlib.util.find_spec("axe_playwright_python").submodule_search_locations[0]) / "axe.min.js"
-    for width in (390, 1280):
+    for scene, width in itertools.product(("?scene=peg", "?preset=air-hockey"), (390, 1280)):
         for scheme in ("light", "dark"):
-            with Visit(browser, url, width=width, color_scheme=scheme) as visit:
+            with Visit(browser, url, scene, width=width, color_scheme=scheme) as visit:
                 visit.page.locator("#take-slot").click()
                 visit.page.locator("#words summary").click()
                 visit.page.evaluate(axe.read_text())
                 found = visit.page.evaluate("axe.run().then((result) => result.violations)")
                 text = [(of["id"], [node["html"][:120] for node in of["nodes"]][:3]) for of in found]
-                assert not found, f"{width} px, {scheme}: {text}"
+                assert not found, f"{scene}, {width} px, {scheme}: {text}"
 
 
 def nothing_overflows(browser, url, _):
     """Neither a phone nor a desk's screen scrolls sideways."""
-    for width in (320, 390, 768, 1280, 1920):
-        with Visit(browser, url, width=width) as visit:
+    for scene, width in itertools.product(("?scene=peg", "?preset=air-hockey"), (320, 390, 768, 1280, 1920)):
+        with Visit(browser, url, scene, width=width) as visit:
             visit.page.locator("#take-slot").click()
             expect(visit.page.locator("#slot-channels button")).to_have_count(8)
             excess = visit.page.evaluate("document.documentElement.scrollWidth - innerWidth")
-            assert excess <= 0, f"{width} px: {excess} px too wide"
+            assert excess <= 0, f"{scene}, {width} px: {excess} px too wide"
 
 
 PICTURES_JS = """(seconds) => new Promise((resolve) => {
@@ -396,12 +441,15 @@ def take_pictures(browser, url, folder):
             visit.page.wait_for_timeout(500)
             # A browser that draws in software may need long for a page that never rests.
             visit.page.screenshot(path=folder / f"{name}-{scheme}.png", full_page=True, timeout=4 * PATIENCE_MS)
+        with Visit(browser, url, "?preset=air-hockey", width, height, color_scheme=scheme, device_scale_factor=scale) as visit:
+            strike(visit)
+            visit.page.screenshot(path=folder / f"game-{name}-{scheme}.png", full_page=True, timeout=4 * PATIENCE_MS)
 
 
 TESTS = [
     opens_and_runs, mouse_meets_the_wall, keys_meet_the_wall, touches_lead_a_pad_each, loupe_drags_by_touch, space_freezes,
     strips_zoom_and_scrub, full_stop_runs_one_slot, recording_downloads_a_scene, command_and_link_are_copied,
-    lost_connection_is_plain, links_open_scenes, presets_open, axe_finds_nothing, nothing_overflows, pictures_a_second,
+    lost_connection_is_plain, links_open_scenes, presets_open, a_strike_sends_the_puck, axe_finds_nothing, nothing_overflows, pictures_a_second,
 ]
 
 

@@ -25,12 +25,13 @@ impl Random {
     }
 }
 
-const TYPES: [&str; 12] = [
+const TYPES: [&str; 13] = [
     "lead",
     "release",
     "set",
     "target",
     "wall",
+    "serve",
     "pace",
     "step",
     "slot",
@@ -143,7 +144,8 @@ fn ten_thousand_hostile_messages_end_nothing() {
         }
         assert!(answers > 300 * (round + 1), "errors are answered: {answers}");
     }
-    // The scene may have been replaced; it runs, and takes inputs.
+    // The scene may have been replaced, or be about to be; it runs, and takes inputs.
+    watcher.until(|value| value["type"] == "status" && value["opening"].is_null());
     watcher.done("\"type\":\"open\",\"scene\":\"hockey\"");
     watcher.done("\"type\":\"set\",\"pad\":0,\"load_g\":50");
     watcher.done("\"type\":\"pace\",\"speed\":1");

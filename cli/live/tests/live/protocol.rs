@@ -25,6 +25,7 @@ fn commands() -> Vec<Command> {
         Command::Wall { x_mm: Some(-1.5), y_mm: None, off: false },
         Command::Wall { x_mm: Some(-1.5), y_mm: Some(2.0), off: false },
         Command::Wall { x_mm: None, y_mm: None, off: true },
+        Command::Serve,
         Command::Pace { speed: 0.1 },
         Command::Pace { speed: 0.0 },
         Command::Step { slots: 8 },
@@ -110,7 +111,8 @@ fn a_hello_says_what_a_page_needs() {
     assert_eq!(hello["inputs"][0]["name"], "pad.load_g");
     assert_eq!(hello["inputs"][0]["value"], 60.0);
     assert!(hello["scenes"].as_array().unwrap().contains(&"hockey".into()));
-    assert_eq!(hello["presets"].as_array().unwrap().len(), 6);
+    assert_eq!(hello["presets"].as_array().unwrap().len(), 7);
+    assert!(hello.get("arena").is_none());
 }
 
 #[test]
@@ -131,6 +133,46 @@ fn frames_have_a_column_of_each_kind_and_a_value_for_each_pad() {
         (frames["terminals"].as_array().unwrap().len(), &frames["walls"][0]),
         (6, &(-10.0).into())
     );
+}
+
+#[test]
+fn a_game_is_in_hello_and_frames_and_a_goal_is_told() {
+    // Straight into the right goal, past the mallet.
+    let served =
+        [("arena.puck_mm", "[200, 40]"), ("arena.puck_mm_s", "[4000, 0]"), ("arena.puck_mu", "0")];
+    let live = Live::new(opening("air-hockey", &served));
+    let mut client = live.client();
+    let hello = client.next("hello");
+    assert_eq!(hello["arena"]["half_mm"], serde_json::json!([300.0, 180.0]));
+    let reach =
+        serde_json::json!([[[-285.0, -15.0], [-165.0, 165.0]], [[15.0, 285.0], [-165.0, 165.0]]]);
+    assert_eq!(hello["arena"]["reach_mm"], reach);
+    assert_eq!(
+        (&hello["walls"], &hello["presets"][6]["name"]),
+        (&serde_json::json!([]), &"air-hockey".into())
+    );
+    client.send(r#"{"type":"step","slots":160}"#);
+    let note = client.next("note");
+    assert_eq!(note["text"], "Goal of the left player: 1 to 0");
+    let frames = client.until(|value| value["type"] == "frames" && value["game"]["score"][0] == 1);
+    assert_eq!(frames["game"]["puck_mm"], serde_json::json!([0.0, 0.0]));
+    client.done("\"type\":\"serve\"");
+    client.send(r#"{"type":"step","slots":1}"#);
+    let again =
+        client.until(|value| value["type"] == "frames" && value["game"]["puck_mm"][0] != 0.0);
+    assert_eq!(
+        (&again["game"]["score"][0], &again["game"]["puck_mm"][1]),
+        (&1.into(), &40.0.into())
+    );
+}
+
+#[test]
+fn a_scene_without_a_game_refuses_a_serve() {
+    let live = Live::of("peg");
+    let mut client = live.client();
+    client.send(r#"{"type":"serve","id":5}"#);
+    let error = client.next("error");
+    assert_eq!(error["message"], "serve: expected a case with [arena]");
 }
 
 #[test]

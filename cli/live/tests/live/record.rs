@@ -117,6 +117,25 @@ fn a_recorded_wall_simulates_to_the_bit() {
 }
 
 #[test]
+fn a_recorded_game_simulates_to_the_bit() {
+    let strike = Command::Lead { pad: 0, mm: [-60.0, 1.0], within_s: Some(0.2) };
+    let commands = [
+        (0, lead(0, [-149.0, 0.0])),
+        (100, strike),
+        (1000, Command::Serve),
+        (1100, lead(0, [-90.0, 0.0])),
+        (1300, Command::Serve),
+    ];
+    let set = [("pad.0.position_mm", "[-150, 0]"), ("arena.serve_s", "[0.3]")];
+    let mut source = simulated(&opening("air-hockey", &set)).unwrap();
+    let shown = run(&mut source, 1100, &commands);
+    let fastest =
+        shown.iter().filter_map(|row| row.game).map(|game| game.puck_mm_s).fold(0.0, f64::max);
+    assert!(fastest > 300.0, "a strike: {fastest} mm/s");
+    check_scene(&opening("air-hockey", &set), None, 1400, &commands);
+}
+
+#[test]
 fn a_recorded_corner_simulates_to_the_bit() {
     let commands = [
         (0, lead(0, [9.0, 9.0])),

@@ -62,6 +62,8 @@ pub(crate) struct LoopInputs {
     pub targets_n: Vec<Option<f64>>,
     /// The walls along x and along y.
     pub walls: [WallInput; 2],
+    /// The walls along x and y of each pad, where it has its own, in place of those.
+    pub surfaces: Vec<Option<[Surface; 2]>>,
 }
 
 /// Where a wall begins.
@@ -110,24 +112,26 @@ pub struct LoopSlot {
 /// Where the wall that is known by a number begins, as the core measures it: a pad's place is that of
 /// its last part. Of quadrants the wall along y is known by the third.
 pub fn surface_of(wall: &WallPlan, parts_mm: &[[f64; 2]], pad: usize, time_s: f64) -> Surface {
-    surface_with(wall, parts_mm, (pad, time_s), [WallInput::Scene; 2])
+    surface_with(wall, parts_mm, (pad, time_s), ([WallInput::Scene; 2], None))
 }
 
 fn surface_with(
     wall: &WallPlan,
     parts_mm: &[[f64; 2]],
     (pad, time_s): (usize, f64),
-    [x, y]: [WallInput; 2],
+    ([x, y], own): ([WallInput; 2], Option<[Surface; 2]>),
 ) -> Surface {
     let [x_mm, y_mm] = parts_mm.last().copied().unwrap_or_default();
     let along_y =
         wall.along_y.as_ref().filter(|_| pad % parts_mm.len() == Wall::PART_OF_Y as usize);
-    match along_y {
-        Some(along_y) => {
+    match (along_y, own) {
+        (Some(_), Some([_, own])) => Surface { mm: own.mm + y_mm, ..own },
+        (None, Some([own, _])) => Surface { mm: own.mm + x_mm, ..own },
+        (Some(along_y), None) => {
             let mm = y.surface_mm(along_y.surface_mm(time_s), along_y.above) + y_mm;
             Surface { mm, right: along_y.above }
         }
-        None => {
+        (None, None) => {
             let mm = x.surface_mm(wall.surface_mm(time_s), wall.right) + x_mm;
             Surface { mm, right: wall.right }
         }
@@ -161,7 +165,8 @@ impl LoopPlant {
             maker.plant().set_drive(pad, 0.0, 0.0)?;
         }
         let (surfaces, driven) = (vec![None; pads], vec![None; pads]);
-        let targets_n = vec![None; pads / maker.device().parts()];
+        let of_scene = pads / maker.device().parts();
+        let (targets_n, own) = (vec![None; of_scene], vec![None; of_scene]);
         Ok(LoopPlant {
             maker,
             clock,
@@ -171,7 +176,7 @@ impl LoopPlant {
             surfaces,
             driven,
             excitation: None,
-            inputs: LoopInputs { targets_n, ..LoopInputs::default() },
+            inputs: LoopInputs { targets_n, surfaces: own, ..LoopInputs::default() },
         })
     }
 
@@ -199,8 +204,8 @@ impl LoopPlant {
 
     fn surface(&mut self, pad: usize, time_s: f64) -> Option<Surface> {
         let parts_mm = self.maker.device().parts_mm();
-        let walls = self.inputs.walls;
-        let surface = surface_with(self.wall.as_ref()?, parts_mm, (pad, time_s), walls);
+        let set = (self.inputs.walls, self.inputs.surfaces[pad / parts_mm.len()]);
+        let surface = surface_with(self.wall.as_ref()?, parts_mm, (pad, time_s), set);
         let before = self.surfaces[pad].replace(surface);
         (before != Some(surface)).then_some(surface)
     }

@@ -4,7 +4,7 @@
 
 use hapticore_scene::Quantity;
 
-use crate::record::{Quantities, Row, Truth};
+use crate::record::{GameRow, Quantities, Row, Truth};
 
 /// The source of an estimate.
 #[derive(Clone, Copy)]
@@ -23,6 +23,9 @@ pub fn estimated(row: &Row, of: Quantity, estimate: Estimate) -> f64 {
     if let Some(known) = row.truth.and_then(|truth| known_to_the_plant(&truth, of)) {
         return known;
     }
+    if let Some(known) = row.game.and_then(|game| of_game(&game, of)) {
+        return known;
+    }
     match (estimate, row.reference) {
         (Estimate::Core, _) => quantity(&row.measured, of),
         (Estimate::Reference, Some(reference)) => quantity(&reference.quantities, of),
@@ -36,6 +39,9 @@ pub fn estimated(row: &Row, of: Quantity, estimate: Estimate) -> f64 {
 
 /// What the plant knows of a quantity; times since `start_s`.
 pub fn truth(row: &Row, of: Quantity, start_s: f64) -> f64 {
+    if let Some(known) = row.game.and_then(|game| of_game(&game, of)) {
+        return known;
+    }
     match (of, row.truth) {
         (Quantity::TimeS, _) => row.time_s - start_s,
         (_, Some(truth)) => {
@@ -54,6 +60,19 @@ fn known_to_the_plant(truth: &Truth, of: Quantity) -> Option<f64> {
         Quantity::HandXN => Some(truth.hand_x_n),
         Quantity::EccentricityMm => Some(truth.set.eccentricity_mm),
         Quantity::Part => Some(truth.part as f64),
+        _ => None,
+    }
+}
+
+/// What the game of an arena knows.
+fn of_game(game: &GameRow, of: Quantity) -> Option<f64> {
+    match of {
+        Quantity::PuckXMm => Some(game.puck_mm[0]),
+        Quantity::PuckYMm => Some(game.puck_mm[1]),
+        Quantity::PuckMmS => Some(game.puck_mm_s),
+        Quantity::ImpactN => Some(game.impact_n),
+        Quantity::ScoreLeft => Some(f64::from(game.score[0])),
+        Quantity::ScoreRight => Some(f64::from(game.score[1])),
         _ => None,
     }
 }

@@ -66,6 +66,8 @@ pub enum Input {
         #[serde(default)]
         off: bool,
     },
+    /// A new puck, where the case has an arena.
+    Serve,
     /// The haptic voltage at a pad's source, where the case has no controller.
     Voltage {
         /// Which pad.
@@ -143,6 +145,7 @@ impl Stepper {
             }
             Input::Target { pad, newtons } => self.target(pad, newtons),
             Input::Wall { x_mm, y_mm, off } => self.wall([x_mm, y_mm], off),
+            Input::Serve => self.serve(),
             Input::Voltage { pad, v_rms } => self.voltage(pad, v_rms),
         }
     }
@@ -162,7 +165,22 @@ impl Stepper {
         self.set_at("voltage", pad, |plant| plant.set_drive(pad * parts, from_s, v_rms))
     }
 
+    fn serve(&mut self) -> Result<(), InputError> {
+        let Some(arena) = &mut self.arena else {
+            return Err(InputError::Absent { key: "serve", why: "expected a case with [arena]" });
+        };
+        arena.serve();
+        Ok(())
+    }
+
+    /// Refuses what the game of an arena decides.
+    fn check_no_game(&self, key: &'static str) -> Result<(), InputError> {
+        let why = "expected a case without [arena], whose game sets targets and walls";
+        if self.arena.is_some() { Err(InputError::Absent { key, why }) } else { Ok(()) }
+    }
+
     fn target(&mut self, pad: usize, newtons: f64) -> Result<(), InputError> {
+        self.check_no_game("target")?;
         let control = self.case.profile.control.as_ref();
         let most_n = control.map(|control| control.target.real(control.target.max_code() as i64));
         let Some((plant, most_n)) = self.closed().zip(most_n) else {
@@ -178,6 +196,7 @@ impl Stepper {
     }
 
     fn wall(&mut self, places_mm: [Option<f64>; 2], off: bool) -> Result<(), InputError> {
+        self.check_no_game("wall")?;
         let scene = self.case.plan().and_then(|plan| plan.wall.as_ref());
         let has_walls = [scene.is_some(), scene.is_some_and(|wall| wall.along_y.is_some())];
         let device = self.plant().device();

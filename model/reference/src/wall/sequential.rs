@@ -196,6 +196,17 @@ impl Sequential {
         Sequential { numbers: Numbers::of(wall), ..Sequential::new(stiffness, test, factory, 1.0) }
     }
 
+    /// Sets what the direction reads without a push when it leaves the factory: the wall is now on the other side of the
+    /// pad. What it has learnt in free air stays.
+    pub fn set_factory(&mut self, factory: f64) {
+        self.factory = factory;
+        if self.motion.is_none() {
+            (self.u, self.slow_u) = (factory, factory);
+            (self.inwards.u, self.outwards.u) = (factory, factory);
+            self.pressed = Pressed::at(factory, 0.0);
+        }
+    }
+
     /// Filtered place and speed, mm and mm/s.
     fn follow(&mut self, x_mm: f64) -> (f64, f64) {
         let [last, filtered, speed] = self.motion.unwrap_or([x_mm, x_mm, 0.0]);

@@ -24,6 +24,8 @@ pub struct Whole {
 #[derive(Clone, Debug)]
 struct Axis {
     wall: Sequential,
+    /// What the direction of a wall on the left reads without a push.
+    factory: f64,
     /// Where it begins; without it there is none.
     surface: Option<Surface>,
     /// Place of the last valid frame, mm.
@@ -51,13 +53,13 @@ impl SplitPads {
     /// `parts` parts of pads with walls of a profile.
     pub fn new(wall: &Wall, walls: &Walls, parts: usize) -> Self {
         let stiffness = Stiffness { n_per_mm: walls.stiffness_n_per_mm, most_n: walls.most_n };
-        let along_x = if walls.right { -walls.factory } else { walls.factory };
         let axis = |factory: f64| Axis {
-            wall: Sequential::of_profile(stiffness, wall, factory),
+            wall: Sequential::of_profile(stiffness, wall, mirrored(factory, walls.right)),
+            factory,
             surface: None,
             place_mm: None,
         };
-        let axes = [along_x, 0.0].into_iter().take(wall.axes() as usize).map(axis).collect();
+        let axes = [walls.factory, 0.0].into_iter().take(wall.axes() as usize).map(axis).collect();
         let of_pad = wall.parts as usize;
         let sensed = vec![None; if of_pad == 3 { 2 } else { of_pad }];
         let pad = Pad { axes, sensed, rests: false };
@@ -78,6 +80,7 @@ impl SplitPads {
         };
         if let Some(axis) = self.pad(pad).axes.get_mut(axis) {
             axis.surface = Some(surface);
+            axis.wall.set_factory(mirrored(axis.factory, surface.right));
         }
     }
 
@@ -117,6 +120,11 @@ impl SplitPads {
         };
         Some(Whole { prompt: whole, walled: pad.walled(&sensed) })
     }
+}
+
+/// What a wall reads where one on the left reads `factory`.
+fn mirrored(factory: f64, right: bool) -> f64 {
+    if right { -factory } else { factory }
 }
 
 fn mean(of: impl ExactSizeIterator<Item = f64>) -> f64 {

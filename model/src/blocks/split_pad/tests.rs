@@ -236,6 +236,48 @@ fn pads_are_those_of_the_reference_where_a_hand_drags_them() {
     }
 }
 
+/// A pad that goes to and fro between two walls has the nearer one: its side and place change in the middle, far from
+/// both. Each holds the pad that is pushed into it and lets go, and the block equals the reference to the bit.
+#[test]
+fn a_wall_that_changes_sides_holds_and_lets_go_on_either() {
+    const FRAMES: u32 = 600;
+    let small = |of: &Profile| of.name == "small";
+    for (seed, profile) in (0..).zip(profiles().into_iter().filter(small)) {
+        let (mut pair, mut random) = (Pair::new(&profile), Random::new(seed));
+        let f = pair.formats;
+        let surface = |mm: f64| f.wall.wall_surface.code_saturating(mm);
+        pair.surface(0, 0, surface(-10.0), false);
+        (1..pair.axes()).for_each(|axis| pair.surface(0, axis, surface(-100.0), false));
+        let mut right = false;
+        let (mut freed, mut forced) = ([0; 2], [0; 2]);
+        for n in 0..6 * FRAMES {
+            let (sin, cos) = (std::f64::consts::TAU * f64::from(n) / f64::from(FRAMES)).sin_cos();
+            let x_mm = 11.5 * sin + 0.002 * random.between(-1.0, 1.0);
+            if x_mm * if right { -1.0 } else { 1.0 } > 1.0 {
+                right = !right;
+                pair.surface(0, 0, surface(if right { 10.0 } else { -10.0 }), right);
+            }
+            (0..pair.axes()).for_each(|axis| pair.place(0, axis, f.place.code_saturating(x_mm)));
+            // A hand pushes the way it goes: inwards, a pad on the right has more on its right.
+            let u = 0.004 + 0.02 * cos.signum();
+            let part = |part: usize| {
+                let on_right = if pair.parts == 4 { part >= 2 } else { part == 1 };
+                let share = if on_right { 1.0 + u } else { 1.0 - u };
+                (f.capacitance.code_saturating(170.0 * share), 0, [false; 2])
+            };
+            let parts: Vec<_> = (0..pair.parts).map(part).collect();
+            let out = pair.frame(0, &parts, x_mm.abs() < 10.0);
+            if n > FRAMES && x_mm.abs() > 10.0 {
+                let (side, inwards) = (usize::from(x_mm > 0.0), cos * x_mm > 0.0);
+                forced[side] += usize::from(inwards && out.target > 0);
+                freed[side] += usize::from(!inwards && out.free == 1);
+            }
+        }
+        let met = forced.iter().chain(&freed).all(|&frames| frames > 100);
+        assert!(met, "{} parts: {forced:?} forces, {freed:?} free", pair.parts);
+    }
+}
+
 #[test]
 fn what_is_kept_has_a_word_for_every_number_of_a_part() {
     for profile in profiles() {
