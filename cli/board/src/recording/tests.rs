@@ -33,6 +33,7 @@ fn row(pad: usize, time_s: f64) -> Row {
         laws: None,
         truth: None,
         driven: Some(driven),
+        game: None,
         reference: None,
     }
 }
