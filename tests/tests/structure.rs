@@ -116,9 +116,10 @@ const IMPORTS: [(&str, &[&str]); 20] = [
 
 /// What the tests of a crate use besides.
 ///
-/// Tests of boards take the host's side of the line, those of scenes its crosstalk cancellation; other
-/// lock-ins have the estimator of the reference behind them.
-const DEVELOPMENT: [(&str, &[&str]); 5] = [
+/// Tests of boards take the host's side of the line, those of scenes its crosstalk cancellation, those of virtual boards
+/// the gateware; other lock-ins have the estimator of the reference behind them.
+const DEVELOPMENT: [(&str, &[&str]); 6] = [
+    ("cli/board", &["hapticore-hdl", "hapticore-rtl"]),
     ("cli/tradeoff", &["hapticore-reference"]),
     ("model", &["hapticore-reference"]),
     ("model/proof", &["hapticore-rtl"]),
