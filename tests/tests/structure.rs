@@ -121,9 +121,11 @@ const IMPORTS: [(&str, &[&str]); 21] = [
 
 /// What the tests of a crate use besides.
 ///
-/// Tests of boards take the host's side of the line, those of scenes its crosstalk cancellation; other
-/// lock-ins have the estimator of the reference behind them. Tests of reports make up settings of a scene.
-const DEVELOPMENT: [(&str, &[&str]); 6] = [
+/// Tests of boards take the host's side of the line, those of scenes its crosstalk cancellation, those of virtual boards
+/// the gateware; other lock-ins have the estimator of the reference behind them. Tests of reports make up settings of a
+/// scene.
+const DEVELOPMENT: [(&str, &[&str]); 7] = [
+    ("cli/board", &["hapticore-hdl", "hapticore-rtl"]),
     ("cli/report", &["hapticore-scene"]),
     ("cli/tradeoff", &["hapticore-reference"]),
     ("model", &["hapticore-reference"]),

@@ -176,10 +176,10 @@ impl Faults {
         self.wrong.iter().for_each(|fault| on_lines(*fault, codes, &before));
     }
 
-    /// What the first data line brings of the ADC's answer to a word for a register.
+    /// What the first data line brings of the ADC's answer to a word for a register; the other lines are low meanwhile.
     pub fn answer(&self, answer: u16) -> u16 {
         self.wrong.iter().fold(answer, |answer, fault| match fault {
-            Wrong::LineLow(0) => 0,
+            Wrong::LineLow(0) | Wrong::LineShorted(0, _) => 0,
             Wrong::LineHigh(0) => u16::MAX,
             _ => answer,
         })
@@ -199,6 +199,15 @@ impl Faults {
             }
         }
     }
+}
+
+/// Codes of the ADC's channels over those at ±10 V, by the registers of its ranges.
+pub fn gains(ranges: [u8; 4]) -> [f64; 8] {
+    const VOLTS: [f64; 5] = [2.5, 5.0, 6.25, 10.0, 12.5];
+    std::array::from_fn(|channel| {
+        let range = ranges[channel / 2] >> (4 * (channel % 2)) & 0xf;
+        VOLTS.get(usize::from(range)).map_or(1.0, |volts| 10.0 / volts)
+    })
 }
 
 /// A code within the ADC's range.

@@ -18,6 +18,7 @@ mod blocks;
 mod board_pins;
 mod clock_error;
 mod commands;
+mod dac;
 mod drive_output;
 mod driven;
 mod heartbeats;

@@ -2,8 +2,8 @@
 //! The whole board: calibrated over its line and fed at its pins, it tells the frames of the core.
 
 use crate::bench::Bench;
+use crate::dac::Dac;
 use crate::device::{Sight, calibration, codes, short_profiles};
-use crate::drive_output::Dac;
 use crate::pins::{Adc, Health, Host};
 use crate::random::Random;
 use hapticore_contract::calibration::Calibration;

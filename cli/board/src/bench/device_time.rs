@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A virtual board in device time, whose pads go where they are sent.
+//! A board in device time, whose pads go where they are sent: a virtual one, or one that is clocked.
 
 use std::collections::VecDeque;
 
@@ -10,13 +10,13 @@ use hapticore_host::bringup::{BringUp, Step};
 use hapticore_host::startup::{AdcSetup, LineFault, StartupError, check, prepare};
 use hapticore_host::{Command, Decoder, Heartbeat, Message, Packet, encode};
 
-use super::{Bench, MOVES_S, Place, SWINGS_S};
+use super::{Bench, MOVES_S, Place, SWINGS_S, SteppedBoard};
 use crate::virtual_board::VirtualBoard;
 
-/// A virtual board in device time, as fast as it computes.
-pub struct DeviceTime {
+/// A board in device time, as fast as it computes.
+pub struct DeviceTime<B = VirtualBoard> {
     /// The board.
-    pub board: VirtualBoard,
+    pub board: B,
     decoder: Decoder,
     profile: Profile,
     parts_mm: Vec<Place>,
@@ -31,9 +31,9 @@ const TICK_S: f64 = 0.002;
 /// The longest wait for a packet, s.
 const PATIENCE_S: f64 = 2.0;
 
-impl DeviceTime {
+impl<B: SteppedBoard> DeviceTime<B> {
     /// A board that has just been configured.
-    pub fn new(mut board: VirtualBoard) -> Self {
+    pub fn new(mut board: B) -> Self {
         board.hold_still();
         let profile = board.profile().clone();
         let parts_mm = board.plant().parts_mm().to_vec();
@@ -41,10 +41,13 @@ impl DeviceTime {
         DeviceTime { decoder, queue, profile, board, parts_mm, commands: 0 }
     }
 
-    fn send(&mut self, commands: &[Command]) {
+    fn send(&mut self, commands: &[Command]) -> Result<()> {
         self.commands += commands.len();
+        self.board.receive(&encode(commands, &self.profile))?;
+        // What was sent meanwhile does not know of them all.
         self.queue.clear();
-        self.board.receive(&encode(commands, &self.profile));
+        self.decoder.decode(self.board.take_bytes()).for_each(drop);
+        Ok(())
     }
 
     /// The messages of the next ticks, until one is wanted.
@@ -78,18 +81,18 @@ impl DeviceTime {
         calibration: &Calibration,
         adc: &AdcSetup,
     ) -> Result<Vec<(u8, LineFault)>> {
-        let output = self.board.made().output;
+        let output = self.board.output();
         let mut bring_up = BringUp::new(&self.profile, calibration, output).with_all_lines();
         let before = (self.commands % 16) as u8;
         let commands = bring_up.begin(adc, before);
-        self.send(&commands);
+        self.send(&commands)?;
         loop {
             let heartbeat = self.heartbeat()?;
             match bring_up.heartbeat(&heartbeat) {
                 Ok(Step::Wait) => (),
-                Ok(Step::Send(commands)) => self.send(&commands),
+                Ok(Step::Send(commands)) => self.send(&commands)?,
                 Ok(Step::Ready(enable)) => {
-                    self.send(&[enable]);
+                    self.send(&[enable])?;
                     return Ok(Vec::new());
                 }
                 Err(StartupError::Line { .. }) => return Ok(bring_up.line_faults().to_vec()),
@@ -99,7 +102,7 @@ impl DeviceTime {
     }
 }
 
-impl Bench for DeviceTime {
+impl<B: SteppedBoard> Bench for DeviceTime<B> {
     fn profile(&self) -> &Profile {
         &self.profile
     }
@@ -119,12 +122,12 @@ impl Bench for DeviceTime {
         }
         let before = (self.commands % 16) as u8;
         let commands = prepare(&self.profile, calibration, adc);
-        self.send(&commands);
+        self.send(&commands)?;
         let heartbeat = self.heartbeat()?;
-        let output = self.board.made().output;
+        let output = self.board.output();
         let sent = (before, commands.len());
         check(&heartbeat, &self.profile, output.as_ref(), calibration, sent)?;
-        self.send(&[Command::ENABLE]);
+        self.send(&[Command::ENABLE])?;
         Ok(Vec::new())
     }
 
@@ -135,11 +138,9 @@ impl Bench for DeviceTime {
             led.with_context(|| format!("pad {pad}"))?;
         }
         // No slot is simulated meanwhile.
-        self.send(&[Command::DISABLE]);
-        self.board.advance(from_s + MOVES_S + SWINGS_S)?;
-        self.send(&[Command::ENABLE]);
-        let _ = self.board.take_bytes();
-        Ok(())
+        self.send(&[Command::DISABLE])?;
+        self.board.rest(from_s + MOVES_S + SWINGS_S)?;
+        self.send(&[Command::ENABLE])
     }
 
     fn next_frames(&mut self) -> Result<Vec<Packet>> {

@@ -6,6 +6,7 @@
 
 mod device_time;
 mod real_time;
+mod stepped;
 
 use anyhow::{Result, ensure};
 use hapticore_contract::calibration::{Calibration, Point, PositionTable};
@@ -15,6 +16,7 @@ use hapticore_host::{DeviceCalibration, Packet};
 
 pub use device_time::DeviceTime;
 pub use real_time::RealTime;
+pub use stepped::SteppedBoard;
 
 /// Frames in which each pad has come, some seconds of them.
 const MOST_FRAMES: usize = 1 << 16;

@@ -85,7 +85,8 @@ impl DrivenCore {
             low: drive.low,
             high: drive.high,
             free: drive.walled.is_some_and(|walled| walled.free),
-            live: true,
+            // A fault takes the converter off, too.
+            live: !drive.faults.any(),
             faults: drive.faults,
         };
         fraction

@@ -8,8 +8,9 @@
 //! ```
 //!
 //! The core is fidelity `fixed`, calibrated by the words that the host has written and nothing else. It is simpler
-//! than the gateware in four ways: commands are taken without the time that their bytes need, and a heartbeat is never cut.
-//! A new setting of the controller makes it begin anew at 0 V. A frame's packet begins as its slot ends.
+//! than the gateware in five ways: commands are taken without the time that their bytes need, and a heartbeat is never cut.
+//! A new setting of the controller makes it begin anew at 0 V. A frame's packet begins as its slot ends. An enabled board
+//! waits until a slot of the first pad begins. `tests/clocked_board` compares the rest with the clocked gateware.
 
 mod commands;
 mod core;
@@ -161,15 +162,11 @@ impl VirtualBoard {
     /// Has the scene's user hold the pads still, with its mean load and without a push, and takes the haptic voltage to
     /// zero where no controller drives the pads.
     pub fn hold_still(&mut self) {
-        let (from_s, load_g) = (self.now_s + MARGIN_S, self.plant().mean_load_g());
         for pad in 0..self.profile.pads as usize {
             self.set_drive(pad, self.now_s, 0.0);
         }
-        for pad in 0..self.plant().served() / self.plant().parts() {
-            // A scene's load is within the range of loads; a pad without a hand has no push.
-            let _ = self.plant().press(pad, load_g, from_s);
-            let _ = self.plant().push(pad, [0.0; 2], from_s);
-        }
+        let from_s = self.now_s + MARGIN_S;
+        hold_still(self.plant(), from_s);
     }
 
     /// The reset button, or a new configuration.
@@ -252,5 +249,15 @@ impl VirtualBoard {
         let at_s = self.driven_s;
         let set = self.maker.plant().set_drive(pad, at_s, volts);
         debug_assert!(set.is_ok(), "{set:?}");
+    }
+}
+
+/// Has the scene's user hold the pads of a device still from a time on, s, with its mean load and without a push.
+pub fn hold_still(plant: &mut Plant, from_s: f64) {
+    let load_g = plant.mean_load_g();
+    for pad in 0..plant.served() / plant.parts() {
+        // A scene's load is within the range of loads; a pad without a hand has no push.
+        let _ = plant.press(pad, load_g, from_s);
+        let _ = plant.push(pad, [0.0; 2], from_s);
     }
 }

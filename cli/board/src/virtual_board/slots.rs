@@ -2,13 +2,14 @@
 //! Slots and heartbeats of a virtual board, and the packets that they send.
 
 use anyhow::{Context, Result};
-use hapticore_host::{Heartbeat, Message, Packet, Status};
+use hapticore_host::{Dac, Heartbeat, Message, Packet, Status};
 use hapticore_run::engine::Signals;
 
 use super::core::Core;
 use super::state::State;
 use super::words::DriveWords;
 use super::{PAUSE_CLOCKS, VirtualBoard};
+use crate::faults::gains;
 
 /// The most bytes that wait for the host; then the oldest are lost.
 const MOST_BYTES: usize = 1 << 20;
@@ -32,10 +33,10 @@ impl VirtualBoard {
             let follows = self.state.drive.as_ref().is_some_and(DriveWords::drives);
             let core = core.driven().context("a drive word of a core with a controller")?;
             let fraction = core.keep(&drive, follows, &self.profile);
-            let full_scale_v =
-                self.made.output.map_or(0.0, |output| f64::from(output.full_scale_v));
             let at_s = end_s + self.case.drive_latency_s()?;
-            self.set_drive(drive.pad, at_s, full_scale_v * fraction);
+            let output = self.made.output.context("a board with a controller has a drive")?;
+            let volts = f64::from(output.full_scale_v) * converted(fraction, output.dac);
+            self.set_drive(drive.pad, at_s, volts);
         }
         self.state.sequence = self.state.sequence.wrapping_add(1);
         if self.state.busy_until_s > end_s {
@@ -110,11 +111,13 @@ impl VirtualBoard {
     }
 }
 
-/// Codes of the ADC's channels by those at ±10 V, of the registers of its ranges.
-fn gains(ranges: [u8; 4]) -> [f64; 8] {
-    const VOLTS: [f64; 5] = [2.5, 5.0, 6.25, 10.0, 12.5];
-    std::array::from_fn(|channel| {
-        let range = ranges[channel / 2] >> (4 * (channel % 2)) & 0xf;
-        VOLTS.get(usize::from(range)).map_or(1.0, |volts| 10.0 / volts)
-    })
+/// What a converter makes of a drive, fractions of full scale: codes of 16 bits, or pulses whose mean is the drive.
+fn converted(fraction: f64, dac: Dac) -> f64 {
+    const CODES: f64 = 65_536.0;
+    match dac {
+        Dac::Pulses => fraction,
+        Dac::Ad5664 | Dac::Ad5664r | Dac::Ad5668 | Dac::Parallel => {
+            (fraction * CODES).round_ties_even().min(CODES - 1.0) / CODES
+        }
+    }
 }

@@ -3,8 +3,8 @@
 //! capacitance and voltage follow a formula, so that the loop is closed. Every voltage of the converter is watched.
 
 use crate::bench::Bench;
+use crate::dac::Dac;
 use crate::device::{calibration, short_profiles};
-use crate::drive_output::Dac;
 use crate::pins::{Adc, Host};
 use crate::session::parameters;
 use hapticore_contract::control::{Control, Law, Tuning};
