@@ -78,7 +78,7 @@ impl Target {
     /// The same board once more, for a connection after this one has ended.
     ///
     /// # Errors
-    /// As [`line`](hapticore_host::link::line): the name of a line that is none.
+    /// As [`line()`]: the name of a line that is none.
     pub fn again(&self) -> Result<Target> {
         let line: Box<dyn Line> = match &self.running {
             Some(running) => Box::new(running.clone()),
