@@ -443,6 +443,7 @@ def take_pictures(browser, url, folder):
             visit.page.screenshot(path=folder / f"{name}-{scheme}.png", full_page=True, timeout=4 * PATIENCE_MS)
         with Visit(browser, url, "?preset=air-hockey", width, height, color_scheme=scheme, device_scale_factor=scale) as visit:
             strike(visit)
+            visit.page.keyboard.press("Space")
             visit.page.screenshot(path=folder / f"game-{name}-{scheme}.png", full_page=True, timeout=4 * PATIENCE_MS)
 
 
