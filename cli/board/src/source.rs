@@ -24,7 +24,7 @@ use hapticore_live::source::{Source, Step};
 use hapticore_run::columns::Columns;
 
 use crate::recording::Recorder;
-use crate::target::Target;
+use crate::target::{Target, columns};
 use crate::virtual_line::Running;
 use hello::hello;
 
@@ -110,7 +110,7 @@ impl Board {
 
     /// Columns of its rows.
     pub fn columns(&self) -> Columns {
-        Columns::of_board(self.session.plan().output.is_some(), !self.walls.is_empty())
+        columns(self.session.plan())
     }
 
     /// How many pads the board serves.

@@ -17,6 +17,7 @@ use hapticore_host::startup::AdcSetup;
 use hapticore_host::{Dac, DeviceCalibration, Output, Wave};
 use hapticore_protocol::framing::packet_bytes;
 use hapticore_run::case::Case;
+use hapticore_run::columns::Columns;
 use hapticore_run::inputs;
 use hapticore_run::tuning_file::TuningFile;
 
@@ -88,6 +89,11 @@ impl Target {
         let (plan, device) = (plan.clone(), device.clone());
         Ok(Target { line, plan, device, described: described.clone(), running: running.clone() })
     }
+}
+
+/// Columns of the rows of a board that is brought up with a plan.
+pub fn columns(plan: &Plan) -> Columns {
+    Columns::of_board(plan.output.is_some(), plan.profile.wall.is_some())
 }
 
 /// What a page shows of a device.

@@ -184,6 +184,26 @@ fn a_host_that_ends_leaves_the_board_disabled() {
 }
 
 #[test]
+fn an_open_terminal_takes_the_drive_to_zero_until_it_is_mended() {
+    let mut bench = Bench::armed();
+    bench.board.break_with(|faults| faults.wrong.push(Wrong::Open(2)));
+    bench.until("0 V", |bench| bench.drive_v() == 0.0);
+    // Frames of before are on their way still.
+    let is_lost = |bench: &Bench| bench.frames.last().is_some_and(|of| of.frame.flags.lost);
+    bench.until("a frame that says why", is_lost);
+    let frames = bench.frames.len();
+    bench.until("frames", |bench| bench.frames.len() > frames + 50);
+    let later = &bench.frames[frames..];
+    assert!(later.iter().all(|of| of.frame.flags.lost), "an open terminal");
+    assert!(later.iter().all(|of| of.status.driven.is_some_and(|of| of.word == 0)));
+    bench.board.break_with(|faults| faults.wrong.clear());
+    // The drive may have been lost meanwhile to a machine that is too busy.
+    bench.until("driven again, or off", |bench| {
+        bench.drive_v() > 1.0 || bench.session.phase() == Phase::Measuring
+    });
+}
+
+#[test]
 fn a_host_that_hangs_is_missed_by_the_board() {
     let mut bench = Bench::armed();
     // A reader that is at work keeps the board running, no sign of life is sent.

@@ -7,10 +7,8 @@
 //!                          plant ─ codes ─[faults]─┘       └─ drives ─ plant
 //! ```
 //!
-//! The core is fidelity `fixed`, calibrated by the words that the host has written and nothing else. It is simpler
-//! than the gateware in five ways: commands are taken without the time that their bytes need, and a heartbeat is never cut.
-//! A new setting of the controller makes it begin anew at 0 V. A frame's packet begins as its slot ends. An enabled board
-//! waits until a slot of the first pad begins. `tests/clocked_board` compares the rest with the clocked gateware.
+//! The core is fidelity `fixed`, calibrated by the words that the host has written and nothing else. In what it is simpler
+//! than the gateware, docs/first-light.md lists; `tests/clocked_board` compares the rest with the clocked gateware.
 
 mod commands;
 mod core;

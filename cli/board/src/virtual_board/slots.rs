@@ -29,9 +29,16 @@ impl VirtualBoard {
         self.slot += 1;
         let core = self.state.core.as_mut().context("an enabled board has a core")?;
         let (frame, drive) = core.slot(pad, &codes);
+        let is_open = self.is_open(frame.flags.lost);
+        if is_open && self.made.output.is_some() {
+            let at_s = end_s + self.case.drive_latency_s()?;
+            (0..self.profile.pads as usize).for_each(|pad| self.set_drive(pad, at_s, 0.0));
+        }
         if let Some(drive) = drive {
             let follows = self.state.drive.as_ref().is_some_and(DriveWords::drives);
-            let core = core.driven().context("a drive word of a core with a controller")?;
+            let follows = follows && !is_open;
+            let core = self.state.core.as_mut().and_then(Core::driven);
+            let core = core.context("a drive word of a core with a controller")?;
             let fraction = core.keep(&drive, follows, &self.profile);
             let at_s = end_s + self.case.drive_latency_s()?;
             let output = self.made.output.context("a board with a controller has a drive")?;
@@ -46,6 +53,15 @@ impl VirtualBoard {
         let status = self.status();
         self.send(end_s, &Message::Frame(Packet { status, frame }));
         Ok(())
+    }
+
+    /// Whether a terminal was open in a frame or in the round of pads before it, as the frame says: then drives are at zero,
+    /// and the controller begins anew behind it.
+    fn is_open(&mut self, lost: bool) -> bool {
+        let state = &mut self.state;
+        state.open = if lost { self.profile.pads as usize } else { state.open.saturating_sub(1) };
+        state.is_core_old |= state.open == 1 && state.drive.is_some();
+        state.open > 0
     }
 
     /// What a packet says of the line; it is said once.

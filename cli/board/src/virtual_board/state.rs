@@ -33,6 +33,8 @@ pub(super) struct State {
     pub core: Option<Core>,
     /// Words were written since it was made.
     pub is_core_old: bool,
+    /// Frames until drives may follow again after one with an open terminal.
+    pub open: usize,
     /// When the packet on the line ends.
     pub busy_until_s: f64,
     pub next_heartbeat_s: f64,
@@ -56,6 +58,7 @@ impl State {
             test: None,
             core: None,
             is_core_old: true,
+            open: 0,
             busy_until_s: 0.0,
             next_heartbeat_s: PAUSE_CLOCKS / clock_hz,
         }
