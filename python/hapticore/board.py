@@ -28,7 +28,7 @@ class Board:
     killed, the board misses the signs of life, and takes its drives to 0 V by itself.
 
     **A program that hangs loses the drive.** After 1 s without a call of `read`, `alive`, `arm`,
-    `target`, `wall` or `lead` the drive is disarmed (`notes` says so), until `arm` is called
+    `disarm`, `target`, `wall` or `lead` the drive is disarmed (`notes` says so), until `arm` is called
     again. A `read` that waits is a sign of life all the time.
 
     Notes
@@ -251,7 +251,8 @@ class Board:
         """Check the wiring, the drive off: data lines, wires, channels, pads.
 
         The board is disconnected meanwhile, and brought up again afterwards. Pads of a virtual
-        board are led to their places.
+        board are led to their places, and stay at the last one: with the scene's mean load, and
+        without its haptic voltage.
 
         Parameters
         ----------

@@ -12,7 +12,7 @@ use hapticore_board::background::{Background, MOST_ROWS, Seen};
 use hapticore_board::bench::RealTime;
 use hapticore_board::check::check;
 use hapticore_board::source::Board;
-use hapticore_board::target::{Asked, Target, target};
+use hapticore_board::target::{Asked, Target, columns, target};
 use hapticore_host::SlotClock;
 use hapticore_host::link::Phase;
 use hapticore_live::protocol::Command;
@@ -63,7 +63,7 @@ impl Link {
         }
         let found = target(asked)?;
         let profile = &found.plan.profile;
-        let columns = Columns::of_board(found.plan.output.is_some(), profile.wall.is_some());
+        let columns = columns(&found.plan);
         let clock = SlotClock::new(profile, found.device.device.sample_rate_hz, 0.0);
         let described = found.described.clone();
         let again = Mutex::new(found.again()?);

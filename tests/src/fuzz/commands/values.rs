@@ -81,7 +81,7 @@ impl<'a> Values<'a> {
             ),
             ("host", "target") => one_of(rng, "0=0.2 0=0 0=0.05 9=0.1 0=-1 0=1e300 0=nan x"),
             ("host", "record" | "calibrate") => {
-                one(rng, &["new.csv", "nowhere/new.csv", "folder.toml"])
+                one(rng, &["new.csv", "new.mcap", "nowhere/new.csv", "folder.toml"])
             }
             ("host", "serve") => one_of(rng, "127.0.0.1:0 127.0.0.1:x 192.0.2.1:1 - x"),
             ("tradeoff", "scene") => {
