@@ -35,6 +35,9 @@ const STATED: f64 = 0.95;
 /// The share of frames without a fault that may carry a flag of one.
 const FALSE: f64 = 1e-3;
 
+/// Positions of a recording without a fault are within, mm RMS: what nothing is said of is right.
+const WITHIN_MM: f64 = 1.0;
+
 /// One device in this many has no fault.
 const CLEAN_EVERY: u64 = 3;
 
@@ -128,6 +131,20 @@ fn judge(folder: &Path, planted: &Planted) -> Result<(), String> {
     }
 }
 
+/// How far off the positions of a recording's frames are, mm RMS.
+fn off_mm(device: &Device, frames: &str) -> f64 {
+    let mut rows = frames.lines().map(|line| line.split(',').collect::<Vec<_>>());
+    let names = rows.next().expect("a header");
+    let columns = ["x_mm", "y_mm"].map(|name| names.iter().position(|other| *other == name));
+    let rows: Vec<_> = rows.collect();
+    let off = |(slot, row): (usize, &Vec<&str>)| {
+        let at_mm = device.at_mm(slot % device.pads.len(), slot as f64 / rows.len() as f64);
+        let read = columns.map(|of| row[of.expect("positions")].parse::<f64>().expect("a number"));
+        (0..2).map(|axis| f64::powi(read[axis] - at_mm[axis], 2)).sum::<f64>()
+    };
+    (rows.iter().enumerate().map(off).sum::<f64>() / rows.len() as f64).sqrt()
+}
+
 /// Frames of a recording without a fault, and those that carry a flag of one; what was said beside.
 fn clean(device: &Device, rng: &mut Rng, slots: usize) -> (usize, usize, Vec<String>) {
     let (folder, log) = calibrated(device, rng);
@@ -141,6 +158,8 @@ fn clean(device: &Device, rng: &mut Rng, slots: usize) -> (usize, usize, Vec<Str
     let flagged =
         frames.lines().skip(1).filter(|row| FLAGS.iter().any(|flag| row.contains(flag))).count();
     assert_eq!(rows, slots, "{said}");
+    let off_mm = off_mm(device, &frames);
+    assert!(off_mm < WITHIN_MM, "positions are {off_mm} mm RMS off: {said}");
     // The recording has more bits than the ADC of the profile.
     let said = said.lines().filter(|line| !line.contains("were rounded to the 18 bits"));
     (rows, flagged, said.map(String::from).collect())

@@ -9,7 +9,7 @@
 //! From target to true force, a sine of the target is added instead; the force is that of the pad's
 //! slots, held from each to the next. U and D are amplitudes at the frequency, over whole periods
 //! under a Hann window, after the loop has settled. Core, noise, words and estimates are those of
-//! the run.
+//! the run; `clock` is measured by `fixed`, whose words are its own.
 
 use std::f64::consts::TAU;
 
@@ -19,6 +19,7 @@ use hapticore_scene::Complex;
 use super::plant::Excitation;
 use super::stability::{OpenLoop, margins};
 use crate::case::{Case, Settings};
+use crate::engine::Fidelity;
 use crate::interrupt;
 use crate::maker::Maker;
 use crate::record::{Bode, BodePoint};
@@ -158,12 +159,17 @@ fn amplitude(samples: &[Sample], hz: f64, of: impl Fn(&Sample) -> f64) -> Comple
     samples.iter().enumerate().map(term).sum::<Complex>() * (2.0 / FRAMES as f64)
 }
 
+/// The quickest fidelity with the same frames and drive words.
+fn alike(fidelity: Fidelity) -> Fidelity {
+    if fidelity == Fidelity::Clock { Fidelity::Fixed } else { fidelity }
+}
+
 /// The first pad's slots under an excitation.
 fn follow(case: &Case, settings: &Settings, excitation: Excitation) -> Result<Vec<Sample>> {
     let plant = case.plant()?;
     let tuning = case.tuning(&plant)?.context("a case with a controller")?;
     let device = (&**case.device, case.calibration()?);
-    let options = Options { fidelity: settings.fidelity, errors: false, reference: false };
+    let options = Options { fidelity: alike(settings.fidelity), errors: false, reference: false };
     let at = (case.number, case.clock);
     let mut session = Session::new(&case.profile, device, (options, Some(&tuning)), at)?;
     let sampled = case.scene.cases[case.index].sampled();

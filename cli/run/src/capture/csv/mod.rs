@@ -28,7 +28,7 @@ pub(super) mod write;
 use std::collections::VecDeque;
 use std::io::{BufRead, BufReader, Read};
 
-use anyhow::{Context, Result, anyhow, bail};
+use anyhow::{Context, Result, anyhow, bail, ensure};
 use encoding_rs_io::DecodeReaderBytesBuilder;
 
 use super::columns::{self, Column, Columns, wanted};
@@ -71,6 +71,10 @@ pub struct Reader {
     clipped: bool,
 }
 
+/// What is wrong besides where a file ends within a line.
+const CUT_SHORT: &str =
+    "; the file ends within this line: it is cut short; --truncated takes what is there";
+
 impl Reader {
     /// Opens a capture and reads its head.
     pub fn open(input: Input, adc: Adc, described: &Described) -> Result<Self> {
@@ -103,7 +107,9 @@ impl Reader {
     }
 
     fn error(&self, message: impl std::fmt::Display) -> anyhow::Error {
-        anyhow!("{}:{}: {message}", self.input.name, self.number.max(1))
+        let (name, number) = (&self.input.name, self.number.max(1));
+        let cut = if self.line.is_empty() || self.line.ends_with('\n') { "" } else { CUT_SHORT };
+        anyhow!("{name}:{number}: {message}{cut}")
     }
 
     /// Goes to the next line that is neither empty nor a comment; whether there is one.
@@ -291,21 +297,15 @@ impl Reader {
             };
             bail!(self.error(format!("expected {expected} columns, got {fields}{cure}")));
         }
+        let is_whole = self.line.ends_with('\n');
+        ensure!(is_whole, self.error("expected the end of the line, got the end of the file"));
         Ok((sampled, after))
     }
 
-    /// Whether the row is whole: a last line without its end is cut short.
-    fn is_whole(&mut self) -> Result<bool> {
-        if self.line.ends_with('\n') {
-            return Ok(true);
-        }
-        if self.is_short_taken {
-            self.ended_short = true;
-            return Ok(false);
-        }
-        bail!(self.error(
-            "expected the end of the line, got the end of the file: it is cut short; --truncated takes what is there"
-        ))
+    /// Whether the row is a last line without its end, and such a line is left out.
+    fn is_left_out(&mut self) -> bool {
+        self.ended_short = self.is_short_taken && !self.line.ends_with('\n');
+        self.ended_short
     }
 }
 
@@ -332,7 +332,7 @@ fn decoded(mut input: Input) -> Result<Input> {
 
 impl Source for Reader {
     fn row(&mut self, codes: &mut Vec<i32>) -> Result<Option<Sampled>> {
-        if self.ended_short || !self.advance()? {
+        if self.ended_short || !self.advance()? || self.is_left_out() {
             return Ok(None);
         }
         let columns = self.columns.take().expect("the header has been read");
@@ -340,11 +340,6 @@ impl Source for Reader {
         self.fractions.resize(columns.channels, 0.0);
         let mut fractions = std::mem::take(&mut self.fractions);
         let sampled = self.row_of(&columns, &mut fractions);
-        let cut = self.is_short_taken && !self.line.ends_with('\n');
-        if cut || (sampled.is_ok() && !self.is_whole()?) {
-            (self.columns, self.fractions, self.ended_short) = (Some(columns), fractions, true);
-            return Ok(None);
-        }
         for fraction in &fractions {
             let (code, exact) = self.digitiser.code(*fraction);
             self.rounded |= !exact;
