@@ -27,6 +27,32 @@ fn effects_that_do_nothing_change_no_bit() {
     }
 }
 
+/// Of the sensor chain: a key at zero costs nothing.
+#[test]
+fn an_effect_of_no_size_is_not_built() {
+    let sized = |size: f64| {
+        let keys = [
+            "crosstalk_percent",
+            "gain_error_percent",
+            "gain_mismatch_percent",
+            "offset_percent",
+            "jitter_ns_rms",
+            "noise_ppm_rms",
+            "noise_density_na_per_rthz",
+            "series_inductance_mh",
+            "dither_lsb_rms",
+        ];
+        let lines: String = keys.iter().map(|key| format!("{key} = {size:?}\n")).collect();
+        let text = format!(
+            "{PADS}[carrier]\nrung = \"samples\"\n[sensor]\nquantisation_bits = 16\n{lines}"
+        );
+        let mut plant = Plant::new(&scene(&text), 0, &timing()).unwrap().metered();
+        see(&mut plant, 0);
+        plant.effects().iter().filter(|cost| cost.name.starts_with("sensor.")).count()
+    };
+    assert_eq!((sized(0.0), sized(0.01)), (1, 10));
+}
+
 #[test]
 fn a_metered_plant_and_one_that_is_not_tell_the_same() {
     let scene = scene(&all_without_state());

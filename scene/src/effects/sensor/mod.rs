@@ -35,7 +35,8 @@ pub(super) mod scale;
 use crate::error::SceneError;
 use crate::format::{Limits, Table};
 
-/// A number of `[sensor]`, if both the table and the key are there.
+/// A number of `[sensor]`, if both the table and the key are there and the effect has a size: one at zero is not built.
 fn key(root: &Table, key: &'static str, limits: Limits) -> Result<Option<f64>, SceneError> {
-    root.table("sensor")?.map_or(Ok(None), |table| table.number(key, limits))
+    let Some(table) = root.table("sensor")? else { return Ok(None) };
+    Ok(table.number(key, limits)?.filter(|number| *number != 0.0))
 }
