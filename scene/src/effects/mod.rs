@@ -32,6 +32,7 @@ mod temperature;
 mod tick;
 
 pub(crate) use effect::{Phasors, Run};
+pub use gap::Compression;
 pub(crate) use pad::Pad;
 pub use running::EffectCost;
 pub(crate) use running::Effects;

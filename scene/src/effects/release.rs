@@ -5,14 +5,13 @@
 //!
 //! ```toml
 //! [release]
-//! time_constant_ms = 0.875        # τ
+//! time_constant_ms = 0.15         # τ
 //! step_us = 100
 //! ```
 //!
 //! What falls in a step has the attraction of its end: a voltage that steps is followed exactly, a
 //! gap that opens half a step late. Haptic force and friction are of A. The default is that of an
-//! electroadhesive clutch, which releases in 875 µs where it engages in less than 15 µs (Rauf and
-//! Follmer, 2025; docs/physics.md §7).
+//! electroadhesive clutch at 300 V (Rauf and Follmer, 2025; docs/physics.md §7).
 
 use super::effect::{Effect, PadEffect};
 use super::pad::Pad;
@@ -28,7 +27,7 @@ pub(super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError>
     if root.table("friction")?.is_none() {
         return Err(table.error("", "expected [friction] too, which is what lets go late"));
     }
-    let time_ms = table.number_or("time_constant_ms", Limits::within(1e-6, 1e6), 0.875)?;
+    let time_ms = table.number_or("time_constant_ms", Limits::within(1e-6, 1e6), 0.15)?;
     let step_s = 1e-6 * table.number_or("step_us", Limits::within(1.0, 1000.0), 100.0)?;
     let build = move |_: &Setting| {
         Effect::Pad(Box::new(Release { time_s: 1e-3 * time_ms, step_s, pads: Vec::new() }))

@@ -28,7 +28,7 @@ fn a_force_falls_with_the_time_constant_and_rises_at_once() {
         [[0.0, 0.0], [0.01003, 300.0], [0.03337, 200.0], [0.03441, 260.0], [0.06219, 0.0]];
     let points: Vec<_> =
         STEPS.windows(2).flat_map(|pair| [[pair[1][0], pair[0][1]], pair[1]]).collect();
-    for (time_ms, written) in [(0.875, ""), (3.0, "time_constant_ms = 3\n")] {
+    for (time_ms, written) in [(0.15, ""), (3.0, "time_constant_ms = 3\n")] {
         let see = |slot_us: usize| {
             let text = format!(
                 "duration_s = 0.08\n{PAD}haptic_v_rms = {{ timeline = {points:?} }}\n{COULOMB}[release]\n{written}"
@@ -62,6 +62,32 @@ fn a_force_falls_with_the_time_constant_and_rises_at_once() {
             assert!((truth.friction_n - load_n - held_n).abs() < 1e-9);
         }
     }
+}
+
+/// The 90 % fall that Rauf and Follmer read on a load cell of 18,018 N/m with 4.3 g on it (docs/physics.md §7), and what it
+/// reads of a force that vanishes immediately.
+#[test]
+fn a_load_cell_reads_the_release_that_was_measured() {
+    const STEP_S: f64 = 1e-6;
+    let falls_ms = |time_constant_ms: f64| {
+        let left = |time_s: f64| (-1e3 * time_s / time_constant_ms).exp();
+        let square = 18_018.0 / 4.3e-3;
+        let (mut read, mut speed, mut time_s) = (1.0, 0.0, 0.0);
+        while read > 0.1 {
+            speed += STEP_S * square * (left(time_s) - read);
+            read += STEP_S * speed;
+            time_s += STEP_S;
+        }
+        1e3 * time_s
+    };
+    let text = format!(
+        "duration_s = 0.1\n{PAD}haptic_v_rms = {{ timeline = [[0.05, 300], [0.05, 0]] }}\n{COULOMB}[release]\n"
+    );
+    let after = truths(&text).into_iter().find(|truth| truth.time_s > 0.05).unwrap();
+    let time_constant_ms = 1e3 * (after.time_s - 0.05) / (force_n(300.0) / after.force_n).ln();
+    let read_ms = falls_ms(time_constant_ms);
+    assert!((read_ms - 0.85).abs() < 0.05, "{time_constant_ms} ms: {read_ms} ms");
+    assert!(falls_ms(1e-6) < 0.75, "the cell itself");
 }
 
 /// A gap that opens: half a step late at most.

@@ -7,21 +7,29 @@
 //! with it lies above the cubic's, where the balance falls steadily: bisection cannot miss it. Past
 //! that fold the contact may still hold the patch in front of it; where it does not, the patch closes. The
 //! balance has one bend, where the contact's decay length is at most half of d: it falls, rises between a
-//! valley and a peak, if at all, and falls. Source: docs/physics.md §3.
+//! valley and a peak, if at all, and falls. Where parts of a patch touch the film none of this holds, and the gap is
+//! followed in steps. Source: docs/physics.md §3.
 
 use super::law::{Drive, Law, Patch, Sloped, root};
 
+/// Steps in which a gap is followed, over the contact's decay length, and how many there are at most.
+const STEP: f64 = 1.0 / 16.0;
+const MOST_STEPS: f64 = 8192.0;
+
 /// The gap in equilibrium; the insulators themselves do not yield, so it is never negative.
 pub(super) fn equilibrium(law: &Law, patch: Patch, drive: Drive) -> f64 {
+    if law.touches() {
+        return followed(law, patch, drive, unpressed(law, patch));
+    }
     let balance = |gap: f64| law.relaxed(gap, patch, drive);
-    let open_height = patch.rest_m + law.insulator_m;
+    let open_height = patch.rest_m + law.haptic_insulator_m;
     let unpulled = open_height - patch.load_share * drive.pressure_pa / law.spring_pa_per_m;
     let top = patch.rest_m + law.contact_pa / law.spring_pa_per_m;
     if let Some(height) = open_root(unpulled, drive.pull_n / law.spring_pa_per_m) {
-        let open = (height - law.insulator_m).max(0.0);
+        let open = (height - law.haptic_insulator_m).max(0.0);
         return root(open, top, open, balance);
     }
-    let fold = (unpulled * 2.0 / 3.0 - law.insulator_m).max(0.0);
+    let fold = (unpulled * 2.0 / 3.0 - law.haptic_insulator_m).max(0.0);
     if balance(fold).value >= 0.0 {
         return root(fold, top, fold, balance);
     }
@@ -37,6 +45,9 @@ pub(super) fn equilibrium(law: &Law, patch: Patch, drive: Drive) -> f64 {
 /// The gap in equilibrium that a patch let go at `from_m` comes to: a patch that has pulled in stays
 /// closed down to a lower voltage than it closed at.
 pub(super) fn equilibrium_from(law: &Law, patch: Patch, drive: Drive, from_m: f64) -> f64 {
+    if law.touches() {
+        return followed(law, patch, drive, from_m);
+    }
     let open_m = equilibrium(law, patch, drive);
     let balance = |gap: f64| law.relaxed(gap, patch, drive).value;
     if from_m >= open_m {
@@ -52,6 +63,33 @@ pub(super) fn equilibrium_from(law: &Law, patch: Patch, drive: Drive, from_m: f6
     }
 }
 
+/// The gap without load and voltage, m: no patch is further open.
+fn unpressed(law: &Law, patch: Patch) -> f64 {
+    let top = patch.rest_m + law.contact_pa / law.spring_pa_per_m;
+    root(0.0, top, patch.rest_m, |gap| law.rubber(gap, patch.rest_m))
+}
+
+/// Where a patch comes to that is let go at a gap: pressure moves it step by step until it changes its sign.
+fn followed(law: &Law, patch: Patch, drive: Drive, from_m: f64) -> f64 {
+    let balance = |gap: f64| law.relaxed(gap, patch, drive);
+    let step_m = (STEP * law.contact_decay_m).max(unpressed(law, patch) / MOST_STEPS);
+    let mut at_m = from_m;
+    if balance(at_m).value > 0.0 {
+        while balance(at_m + step_m).value > 0.0 {
+            at_m += step_m;
+        }
+        return root(at_m, at_m + step_m, at_m, balance);
+    }
+    while at_m > 0.0 {
+        let next_m = (at_m - step_m).max(0.0);
+        if balance(next_m).value >= 0.0 {
+            return root(next_m, at_m, next_m, balance);
+        }
+        at_m = next_m;
+    }
+    0.0
+}
+
 /// The gaps between which a patch's balance rises: contact has faded, and attraction falls faster than the spring.
 struct Rise {
     valley_m: f64,
@@ -63,7 +101,7 @@ impl Rise {
     fn below(law: &Law, drive: Drive, most_m: f64) -> Option<Rise> {
         let rises = |gap: f64| slope(law, drive, gap).value;
         // The contact's share of the bend by the attraction's is largest here.
-        let from_m = (4.0 * law.contact_decay_m - law.insulator_m).clamp(0.0, most_m);
+        let from_m = (4.0 * law.contact_decay_m - law.haptic_insulator_m).clamp(0.0, most_m);
         let bends = |gap: f64| bend(law, drive, gap);
         let steepest_m = match bends(from_m).value > 0.0 {
             true => root(from_m, most_m, from_m, bends),
@@ -84,7 +122,7 @@ impl Rise {
 
 /// The balance's derivative and its second one: neither the load nor the rest gap is in them.
 fn slope(law: &Law, drive: Drive, gap_m: f64) -> Sloped {
-    let (height, contact) = (gap_m + law.insulator_m, contact_pa_per_m(law, gap_m));
+    let (height, contact) = (gap_m + law.haptic_insulator_m, contact_pa_per_m(law, gap_m));
     Sloped {
         value: 2.0 * drive.pull_n / height.powi(3) - law.spring_pa_per_m - contact,
         slope: bend(law, drive, gap_m).value,
@@ -93,7 +131,7 @@ fn slope(law: &Law, drive: Drive, gap_m: f64) -> Sloped {
 
 /// The balance's second derivative and its third one.
 fn bend(law: &Law, drive: Drive, gap_m: f64) -> Sloped {
-    let height = gap_m + law.insulator_m;
+    let height = gap_m + law.haptic_insulator_m;
     let contact = contact_pa_per_m(law, gap_m) / law.contact_decay_m;
     Sloped {
         value: contact - 6.0 * drive.pull_n / height.powi(4),

@@ -2,8 +2,12 @@
 //! The mechanics of a patch of the pad, per unit of its area.
 //!
 //!   P(g) = κ·(g₀ − g) + p₀·e^(−g/λ)                                     (spring and contact)
-//!   m·g̈ + c(g)·ġ = P + r·(P − z) − ½ε₀V²/(g+d)² − s·W/S
+//!   m·g̈ + c(g)·ġ = P + r·(P − z) − A(g) − s·W/S
 //!   ż = (P − z)/τ,   c(g) = 1.5·η·R_f²/(g+g_v)³
+//!   A(g) = ½ε₀V²·[a/d² + (1−a)/(g+d)²],   a = p/(p + σ),   p = p₀·e^(−g/λ)
+//!
+//! a is the share of the patch whose rubber touches the film, where the scene gives its hardness σ; else it is zero. d is
+//! that at the haptic frequency here, and that at the carrier's in the capacitance.
 //!
 //! z is the part of the pressure that the rubber has crept after; relaxed, z = P. Creep brought along
 //! implicitly over a share θ/τ of its time, z⁺ = (z + share·P)/(1 + share), so P − z⁺ = (P − z)/(1 + share):
@@ -112,8 +116,12 @@ pub(super) struct Law {
     pub creep_share: f64,
     /// Creep time τ, s.
     pub creep_s: f64,
-    /// d: thickness of the insulators as so much air, m.
+    /// d: thickness of the insulators as so much air, at the carrier's frequency, m.
     pub insulator_m: f64,
+    /// d at the haptic frequency, m.
+    pub haptic_insulator_m: f64,
+    /// Hardness σ of the rubber's contacts, Pa; infinite where none touch.
+    pub contact_hardness_pa: f64,
     /// Film constant 1.5·η·R_f², N·s.
     pub film_n_s: f64,
     /// g_v: what the film keeps of its thickness in contact, m.
@@ -126,22 +134,46 @@ impl Law {
     /// P(g): pressure of spring and contact, relaxed, Pa.
     #[inline(always)]
     pub fn rubber<R: Real>(&self, gap_m: R, rest_m: R) -> Sloped<R> {
+        pressure(self.spring_pa_per_m, [self.contact_pa, self.contact_decay_m], gap_m, rest_m)
+    }
+
+    /// Whether parts of a patch touch the film.
+    #[inline(always)]
+    pub fn touches(&self) -> bool {
+        self.contact_hardness_pa.is_finite()
+    }
+
+    /// a(g): the share of a patch that touches the film.
+    #[inline(always)]
+    pub fn contact_share<R: Real>(&self, gap_m: R) -> Sloped<R> {
         let contact = R::of(self.contact_pa) * (-gap_m / R::of(self.contact_decay_m)).exp();
+        let share = contact / (contact + R::of(self.contact_hardness_pa));
+        let slope = -share * (R::of(1.0) - share) / R::of(self.contact_decay_m);
+        Sloped { value: share, slope }
+    }
+
+    /// A(g): attraction, Pa.
+    #[inline(always)]
+    fn attraction<R: Real>(&self, gap_m: R, drive: Drive) -> Sloped<R> {
+        let height = gap_m + R::of(self.haptic_insulator_m);
+        let free = R::of(drive.pull_n) / (height * height);
+        let slope = R::of(-2.0) * free / height;
+        if !self.touches() {
+            return Sloped { value: free, slope };
+        }
+        let share = self.contact_share(gap_m);
+        let more = R::of(drive.pull_n / self.haptic_insulator_m.powi(2)) - free;
         Sloped {
-            value: R::of(self.spring_pa_per_m) * (rest_m - gap_m) + contact,
-            slope: R::of(-self.spring_pa_per_m) - contact / R::of(self.contact_decay_m),
+            value: free + share.value * more,
+            slope: (R::of(1.0) - share.value) * slope + share.slope * more,
         }
     }
 
     /// Attraction and load: what closes a patch, Pa.
     #[inline(always)]
     fn closing<R: Real>(&self, gap_m: R, patch: Patch<R>, drive: Drive) -> Sloped<R> {
-        let height = gap_m + R::of(self.insulator_m);
-        let attraction = R::of(drive.pull_n) / (height * height);
-        Sloped {
-            value: attraction + patch.load_share * R::of(drive.pressure_pa),
-            slope: R::of(-2.0) * attraction / height,
-        }
+        let Sloped { value, slope } = self.attraction(gap_m, drive);
+        Sloped { value: value + patch.load_share * R::of(drive.pressure_pa), slope }
     }
 
     /// Pressure that opens a patch of relaxed rubber, Pa.
@@ -197,6 +229,21 @@ impl Law {
             - self.closing(gap_m, patch, drive).value
             - self.film(gap_m).value * speed_m_s;
         (opening / R::of(self.inertia_kg_m2), unrelaxed / R::of(self.creep_s))
+    }
+}
+
+/// P(g) of spring and contact, Pa, the contact given by p₀ and λ.
+#[inline(always)]
+pub(super) fn pressure<R: Real>(
+    spring_pa_per_m: f64,
+    [contact_pa, contact_decay_m]: [f64; 2],
+    gap_m: R,
+    rest_m: R,
+) -> Sloped<R> {
+    let contact = R::of(contact_pa) * (-gap_m / R::of(contact_decay_m)).exp();
+    Sloped {
+        value: R::of(spring_pa_per_m) * (rest_m - gap_m) + contact,
+        slope: R::of(-spring_pa_per_m) - contact / R::of(contact_decay_m),
     }
 }
 

@@ -22,6 +22,7 @@
 //! that is reported is then still of the mean square, at the gap of the moment. Behind `[supply]` the pad's
 //! voltage falls as its capacitance grows. Source: docs/physics.md §3.
 
+mod compression;
 mod dynamic;
 mod equilibrium;
 mod lanes;
@@ -32,6 +33,7 @@ mod read;
 mod read_rubber;
 mod rubber;
 
+pub use compression::Compression;
 pub(super) use read::{read, read_raised};
 
 #[cfg(test)]

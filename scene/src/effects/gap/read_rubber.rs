@@ -6,6 +6,8 @@
 //! rest_um = [12, 30, 40]          # heights g₀ + d of the patches
 //! area_shares = [0.4, 0.3, 0.3]   # of the pad's area, their sum 1
 //! load_shares = [2.5, 0, 0]       # load per area over the pad's; each times its area share, their sum 1
+//! contact_hardness_pa = 3.6e6     # opt-in: parts of a patch touch the film, and attract as across the insulators alone
+//! haptic_permittivity = 3.2       # of the insulators at the haptic frequency; insulator_permittivity is the carrier's
 //! ```
 //!
 //! The defaults are a device that shows what the paper says (docs/physics.md §3). A single height needs no shares. Other
@@ -41,7 +43,10 @@ pub(super) fn read_rubber(table: &Table, device: &Device) -> Result<Rubber, Scen
     let insulator_um = thickness_um / permittivity;
     let rest_um = read_heights(table, insulator_um)?;
     let shares = Shares::read(table, &rest_um)?;
-    let law = read_law(table, insulator_um, device)?;
+    let haptic_permittivity =
+        table.number_or("haptic_permittivity", Limits::within(1.0, 1e5), permittivity)?;
+    let haptic_insulator_um = thickness_um / haptic_permittivity;
+    let law = read_law(table, [insulator_um, haptic_insulator_um], device)?;
     let rest_m = rest_um.iter().map(|um| 1e-6 * (um - insulator_um));
     let patch = |(rest_m, load_share): (f64, &f64)| Patch { rest_m, load_share: *load_share };
     let patches = rest_m.zip(&shares.load).map(patch).collect();
@@ -63,30 +68,40 @@ fn read_heights(table: &Table, insulator_um: f64) -> Result<Vec<f64>, SceneError
     Err(table.error("insulator_um", message))
 }
 
-fn read_law(table: &Table, insulator_um: f64, device: &Device) -> Result<Law, SceneError> {
+/// The law, of insulators that are so much air at the carrier's and at the haptic frequency.
+fn read_law(table: &Table, insulators_um: [f64; 2], device: &Device) -> Result<Law, SceneError> {
     let film_pa_s = table.number_or("film_pa_s", Limits::within(1e-9, 1e3), AIR_PA_S)?;
     let film_area_share = table.number_or("film_area_share", Limits::within(1e-6, 10.0), 0.4)?;
+    let [insulator_m, haptic_insulator_m] = insulators_um.map(|um| 1e-6 * um);
+    let hardness_pa = table.number("contact_hardness_pa", Limits::within(1e3, 1e15))?;
     Ok(Law {
         spring_pa_per_m: table.number_or("spring_pa_per_m", Limits::within(1e3, 1e15), 4.5e7)?,
         contact_pa: table.number_or("contact_pa", Limits::within(0.0, 1e10), 2e5)?,
-        contact_decay_m: 1e-6 * read_contact_decay_um(table, insulator_um)?,
+        contact_decay_m: 1e-6 * read_contact_decay_um(table, insulators_um[1], hardness_pa)?,
         creep_share: table.number_or("creep_share", Limits::within(0.0, 1e4), 0.6)?,
         creep_s: table.number_or("creep_s", Limits::within(1e-6, 1e6), 1.5)?,
-        insulator_m: 1e-6 * insulator_um,
+        insulator_m,
+        haptic_insulator_m,
+        contact_hardness_pa: hardness_pa.unwrap_or(f64::INFINITY),
         film_n_s: 1.5 * film_pa_s * film_area_share * device.pad_area_m2 / PI,
         film_rest_m: 1e-6 * table.number_or("film_rest_um", Limits::within(1e-3, 1e3), 0.7)?,
         inertia_kg_m2: table.number_or("inertia_kg_m2", Limits::within(1e-3, 1e6), 7.0)?,
     })
 }
 
-fn read_contact_decay_um(table: &Table, insulator_um: f64) -> Result<f64, SceneError> {
+/// λ; with a hardness the gap is followed in steps, and λ may be any.
+fn read_contact_decay_um(
+    table: &Table,
+    insulator_um: f64,
+    hardness_pa: Option<f64>,
+) -> Result<f64, SceneError> {
     let decay_um = table.number_or("contact_decay_um", Limits::within(1e-3, 1e3), 1.25)?;
-    if decay_um <= 0.5 * insulator_um {
+    if hardness_pa.is_some() || decay_um <= 0.5 * insulator_um {
         return Ok(decay_um);
     }
     let message = format!(
         "expected at most half of the insulators' {insulator_um} µm of air, beyond which contact and attraction \
-         balance at several gaps, got {decay_um}; set gap.insulator_um, too"
+         balance at several gaps, got {decay_um}; set gap.insulator_um or gap.contact_hardness_pa, too"
     );
     Err(table.error("contact_decay_um", message))
 }

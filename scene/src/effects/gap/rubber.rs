@@ -48,16 +48,31 @@ impl Rubber {
     }
 
     pub fn capacitance_f(&self, gaps_m: impl Iterator<Item = f64>) -> f64 {
-        self.heights(gaps_m).map(|[height, area]| EPSILON_0 * area / height).sum()
+        let of = |area: f64, height_m: f64| EPSILON_0 * area / height_m;
+        self.sum(gaps_m, self.law.insulator_m, of)
     }
 
     pub fn attraction_n(&self, gaps_m: impl Iterator<Item = f64>, pull_n: f64) -> f64 {
-        self.heights(gaps_m).map(|[height, area]| pull_n * area / (height * height)).sum()
+        let of = |area: f64, height_m: f64| pull_n * area / (height_m * height_m);
+        self.sum(gaps_m, self.law.haptic_insulator_m, of)
     }
 
-    /// Heights g + d, m, and areas, m², of the patches.
-    fn heights(&self, gaps_m: impl Iterator<Item = f64>) -> impl Iterator<Item = [f64; 2]> {
-        gaps_m.zip(&self.areas_m2).map(|(gap, area)| [gap + self.law.insulator_m, *area])
+    /// The sum over patches, each from its area, m², and height g + d, m; of the share that touches the height is d.
+    fn sum(
+        &self,
+        gaps_m: impl Iterator<Item = f64>,
+        insulator_m: f64,
+        of: impl Fn(f64, f64) -> f64,
+    ) -> f64 {
+        let touches = self.law.touches();
+        let patch = |(gap_m, &area): (f64, &f64)| {
+            let free = of(area, gap_m + insulator_m);
+            if !touches {
+                return free;
+            }
+            free + self.law.contact_share(gap_m).value * (of(area, insulator_m) - free)
+        };
+        gaps_m.zip(&self.areas_m2).map(patch).sum()
     }
 
     /// The relaxed gaps under a drive.

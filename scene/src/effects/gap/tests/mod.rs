@@ -4,6 +4,7 @@
 mod closed_forms;
 mod devices;
 mod equilibria;
+mod measured;
 mod methods;
 mod sine;
 
@@ -30,6 +31,8 @@ fn law(film_pa_s: f64) -> Law {
         creep_share: 0.0,
         creep_s: 1.5,
         insulator_m: 5e-6,
+        haptic_insulator_m: 5e-6,
+        contact_hardness_pa: f64::INFINITY,
         film_n_s: film_pa_s * 1.5 * 0.015 * 0.015 / 8.0,
         film_rest_m: 0.7e-6,
         inertia_kg_m2: 7.0,
