@@ -16,6 +16,7 @@
 //! | [`corrected`] | a calibration corrected by ratios that a board has read |
 //! | [`loads`] | friction under known loads and voltages |
 //! | [`wiring`] | terminals that are swapped or reversed |
+//! | [`gap`] | a scene's `[gap]`, from capacitances under loads |
 //! | [`force_table`] | the force table, from readings and a prior |
 //! | [`plausible`] | places and currents that are in another unit, or from another origin |
 //! | [`shares`] | each terminal's share of the current by place |
@@ -23,6 +24,7 @@
 
 pub mod corrected;
 pub mod force_table;
+pub mod gap;
 pub mod least_squares;
 pub mod loads;
 pub mod places;
@@ -100,8 +102,7 @@ impl Data {
     /// # Errors
     /// A file that cannot be read, or is of no kind; a kind that is missing or comes twice.
     pub fn read(paths: &[PathBuf]) -> Result<Data> {
-        let read = |path: &PathBuf| Ok((path.display().to_string(), read(path)?));
-        Data::of(&paths.iter().map(read).collect::<Result<Vec<_>>>()?)
+        Data::of(&texts(paths)?)
     }
 
     /// The data of texts, each with the name of its file.
@@ -139,6 +140,15 @@ impl Data {
             loads,
         })
     }
+}
+
+/// The texts of files, each with its name.
+///
+/// # Errors
+/// A file that cannot be read.
+pub fn texts(paths: &[PathBuf]) -> Result<Vec<(String, String)>> {
+    let read = |path: &PathBuf| Ok((path.display().to_string(), read(path)?));
+    paths.iter().map(read).collect()
 }
 
 /// The calibration of a lab's data.

@@ -71,6 +71,19 @@ impl Table {
         })
     }
 
+    /// Refuses columns but these.
+    ///
+    /// # Errors
+    /// The first that is none of them.
+    pub fn only(&self, known: &[&str]) -> Result<()> {
+        match self.names.iter().find(|name| !known.contains(&name.as_str())) {
+            None => Ok(()),
+            Some(name) => {
+                bail!("{}:1: {name}: unknown column, expected {}", self.file, known.join(", "))
+            }
+        }
+    }
+
     /// Data rows with their line numbers.
     pub fn rows(&self) -> &[Row] {
         &self.rows

@@ -50,6 +50,9 @@ fn desk() -> Reader {
     for (name, text) in ["device.toml", "places.csv", "loads.csv"].iter().zip(lab.split('\0')) {
         write(name, text);
     }
+    let under_loads = "load_g,capacitance_pf\n20,299\n35,310\n50,318.7\n70,327\n100,337\n200,352\n";
+    write("c-over-load.csv", under_loads);
+    write("pad.toml", "[device]\npad_diameter_mm = 30\n");
     let volts =
         "t,i1,i2,i3,i4,i5,i6,v_sense,v_haptic\n".to_string() + &"0,1,1,1,1,1,1,2,0\n".repeat(8000);
     write("scope.csv", &volts);

@@ -3,6 +3,7 @@
 //! what is missing.
 
 mod coverage;
+mod gap;
 mod refusals;
 mod replayed;
 mod wiring;
