@@ -227,9 +227,13 @@ const CALIBRATE: &str = "Each file is known by what is in it:
   setup   TOML: pads, sample_rate_hz, carrier_hz, current_full_scale_a, sense_full_scale_v, haptic_full_scale_v; maybe mu,
           gravity_m_s2, force_k, [terminals] x, y, places_mm, [sheet] width_mm, height_mm, ohm_per_square, terminal_ohm
 Currents and v_sense are amplitudes (peak), places mm from the sheet's middle. docs/calibrate.md says more.
+Without places, capacitances under loads give the [gap] of a scene:
+  CSV: load_n or load_g, capacitance_pf, maybe run
+  TOML: [device] pad_diameter_mm, [gap] insulator_um, insulator_permittivity
 
-Example:
+Examples:
   hapticore calibrate places.csv loads.csv device.toml --out mine.toml
+  hapticore calibrate c-over-load.csv pad.toml --out gap.toml
 
 Exit status: 0 done, 2 bad input, or data that do not tell what is asked of them.";
 

@@ -49,6 +49,7 @@ use crate::residual::Residual;
 use hapticore_contract::calibration::{
     Calibration, CalibrationError, Point, PositionError, PositionTable,
 };
+use hapticore_contract::format::Format;
 use hapticore_contract::profile::{ForceLaw, Profile};
 use serde::Deserialize;
 
@@ -205,6 +206,21 @@ pub enum DeviceWordsError {
     /// A number that its format cannot represent.
     #[error(transparent)]
     Number(#[from] CalibrationError),
+    /// k of eq. 8 is beyond the core's force gain.
+    #[error(
+        "device.force_k: expected at most {most:.3e} N/(F·V)², which is what the core's force gain ({format}) holds at \
+         haptic_full_scale_v = {full_scale_v}, got {force_k:.3e}; k is μ/(2ε₀S), so a larger pad or a smaller full scale does"
+    )]
+    ForceGain {
+        /// k of the device.
+        force_k: f64,
+        /// The largest k.
+        most: f64,
+        /// The word's format.
+        format: Format,
+        /// The device's full scale.
+        full_scale_v: f64,
+    },
     /// The core's law is a table, and the device has none.
     #[error(
         "calibration force: expected [force], the table of a profile whose force.law is \"table\""
@@ -244,6 +260,21 @@ impl DeviceCalibration {
         Ok(serving(&for_terminals(profile, &signs)?, self.pads as usize))
     }
 
+    /// The core's force gain.
+    ///
+    /// # Errors
+    /// The profile's word does not hold it.
+    pub fn force_gain(&self, profile: &Profile) -> Result<f64, DeviceWordsError> {
+        let Scales { force_k, haptic_full_scale_v: full_scale_v, .. } = self.device;
+        let gain = |k: f64| k * 1e-24 * full_scale_v.powi(2) / profile.square_gain();
+        let format = profile.formats.force_gain;
+        let most = format.real(format.code_saturating(f64::MAX)) / gain(1.0);
+        if force_k > most {
+            return Err(DeviceWordsError::ForceGain { force_k, most, format, full_scale_v });
+        }
+        Ok(gain(force_k))
+    }
+
     /// The calibration for a core of the profile.
     ///
     /// # Errors
@@ -267,8 +298,7 @@ impl DeviceCalibration {
         let calibration = Calibration {
             position: table.with_open_share(self.map.open_share),
             capacitance_gain: device.capacitance_gain(),
-            force_gain: device.force_k * 1e-24 * device.haptic_full_scale_v.powi(2)
-                / profile.square_gain(),
+            force_gain: self.force_gain(profile)?,
             contact_capacitance: self.contact_pf(),
             force_table,
         };

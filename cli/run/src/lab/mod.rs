@@ -213,6 +213,10 @@ pub fn calibrate(data: &Data, profile: &Profile) -> Result<(DeviceCalibration, O
         shares: shares::of(&normalised(&places)),
     };
     let profile = buildable(device.profile(profile)?)?;
+    device.force_gain(&profile).context(match &data.loads {
+        Some(loads) => loads.file.clone(),
+        None => "force_k of the setup".into(),
+    })?;
     let (measured, held_out) =
         measured.best(&device, &profile).with_context(|| places.file.clone())?;
     device.map = measured.raster().with_context(|| places.file.clone())?;

@@ -34,6 +34,11 @@ fn loads_that_tell_no_force_are_refused() {
         |point| point.force_n = 0.01 * (point.load_g - 60.0),
         &["loads.csv", "does not rise with (C·V)²", "95 %"],
     );
+    // A pad whose capacitance is a twentieth: k is 400 times as large.
+    with_loads(
+        |point| point.capacitance_pf /= 20.0,
+        &["loads.csv: device.force_k", "expected at most 4.6", "got 3.8", "a larger pad"],
+    );
     let alike =
         |point: &mut ForcePoint| (point.haptic_v_rms, point.capacitance_pf) = (200.0, 400.0);
     with_loads(alike, &["loads.csv", "(C·V)² is the same in all measurements", "several voltages"]);
