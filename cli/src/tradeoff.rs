@@ -186,7 +186,7 @@ pub fn prediction(point: &Point, quantity: usize) -> String {
 }
 
 /// What the mark of [`prediction`] says.
-pub const OF_ONE: &str = "?  one slot makes most of the predicted error, so that other slots may have any: measured is what counts, more --slots show more";
+pub const OF_ONE: &str = "?  one slot in 24 makes most of the predicted error, or a word saturates: other slots may have any, measured is what counts, more --slots show more";
 
 /// The quantities in which a point is on the front.
 pub fn front(point: &Point) -> String {

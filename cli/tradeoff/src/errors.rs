@@ -80,7 +80,6 @@ pub(crate) struct Sum {
     mean: f64,
     square: f64,
     largest: f64,
-    largest_square: f64,
     count: f64,
 }
 
@@ -89,19 +88,23 @@ impl Sum {
         self.mean += mean;
         self.square += square;
         self.largest = self.largest.max(largest);
-        self.largest_square = self.largest_square.max(square);
         self.count += 1.0;
-    }
-
-    /// Whether one of several slots makes most of the mean square: that of others may have any size.
-    fn is_of_one(&self) -> bool {
-        self.count > 2.0 && self.largest_square > 0.5 * self.square
     }
 
     pub(crate) fn error(self) -> Error {
         let count = self.count.max(1.0);
         Error { rms: (self.square / count).sqrt(), mean: self.mean / count, largest: self.largest }
     }
+}
+
+/// One slot in so many, or a single one of fewer, does not stand for others.
+const ONE_IN: usize = 24;
+
+/// Whether one slot, of many one in [`ONE_IN`], makes most of the mean square: that of others may have any size.
+fn is_of_few(mut squares: Vec<f64>) -> bool {
+    squares.sort_by(|a, b| b.total_cmp(a));
+    let few = squares.len().div_ceil(ONE_IN);
+    squares.len() > 2 && squares[..few].iter().sum::<f64>() > 0.5 * squares.iter().sum::<f64>()
 }
 
 /// Errors over scenes of the same weight.
@@ -124,7 +127,7 @@ pub struct Expectation {
     pub sources: Sources,
     /// The least amplitude in steps of the ADC.
     pub least_codes: f64,
-    /// Whether one slot makes most of an error.
+    /// Whether one slot makes most of an error, or a slot's frame is flagged, so that errors are not those of rounding.
     pub is_of_one: [bool; 3],
 }
 
@@ -139,7 +142,8 @@ pub fn predicted<'a>(
 ) -> Result<Expectation> {
     let mut predictor = Predictor::new(profile, calibration)?;
     let (mut sums, mut sources) = ([Sum::default(); 3], Sources::default());
-    let (mut least_codes, count) = (f64::INFINITY, slots.len() as f64);
+    let mut squares: [Vec<f64>; 3] = Default::default();
+    let (mut least_codes, mut is_flagged, count) = (f64::INFINITY, false, slots.len() as f64);
     for slot in slots {
         let given = match &slot.signals {
             Signals::Samples(samples) => Given::Samples(samples),
@@ -147,9 +151,11 @@ pub fn predicted<'a>(
                 Given::Tones { amplitudes, mean_square: *mean_square }
             }
         };
-        let Prediction { x, y, capacitance, force, least_codes: codes, .. } =
-            predictor.slot(slot.pad, given);
+        let Prediction {
+            x, y, capacitance, force, least_codes: codes, is_flagged: flagged, ..
+        } = predictor.slot(slot.pad, given);
         least_codes = least_codes.min(codes);
+        is_flagged |= flagged;
         let percent = 100.0 / capacitance.real;
         let of = |of: &Expected, unit: f64| of.errors.total.times(unit);
         let (force_mn, share) = (of(&force, 1e3), of(&capacitance, percent));
@@ -158,6 +164,8 @@ pub fn predicted<'a>(
         let [along, across] = [of(&x, 1e3), of(&y, 1e3)];
         let square = along.rms().powi(2) + across.rms().powi(2);
         sums[2].add(along.mean, square, along.bound.hypot(across.bound));
+        let of_slot = [force_mn.rms().powi(2), share.rms().powi(2), square];
+        squares.iter_mut().zip(of_slot).for_each(|(all, of)| all.push(of));
         for (quantity, of, unit) in
             [(0, force, 1e3), (1, capacitance, percent), (2, x, 1e3), (2, y, 1e3)]
         {
@@ -170,7 +178,7 @@ pub fn predicted<'a>(
     for of in &mut sources {
         of.values_mut().for_each(|square| *square = square.sqrt());
     }
-    let is_of_one = [0, 1, 2].map(|n| sums[n].is_of_one());
+    let is_of_one = squares.map(|of| is_flagged || is_of_few(of));
     Ok(Expectation { errors: sums.map(Sum::error), sources, least_codes, is_of_one })
 }
 
@@ -215,4 +223,20 @@ pub fn errors<'a>(values: &[Values], from: impl Iterator<Item = &'a Values>) -> 
         sums[2].add(place[0], distance * distance, distance);
     }
     sums.map(Sum::error)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::is_of_few;
+
+    #[test]
+    fn an_error_is_of_few_slots_where_one_in_24_makes_most_of_it() {
+        let with = |large: usize, slots: usize| {
+            let square = |n| if n < large { 1e3 } else { 1.0 };
+            is_of_few((0..slots).map(square).collect())
+        };
+        assert!(with(1, 24) && !with(2, 24) && with(1, 3) && !with(1, 2));
+        assert!(with(4, 96) && !with(9, 96));
+        assert!(!is_of_few(vec![1.0; 96]));
+    }
 }

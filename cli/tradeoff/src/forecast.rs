@@ -23,7 +23,7 @@ pub struct Forecast {
     pub sources: Sources,
     /// The least amplitude of a channel in steps of the ADC.
     pub least_codes: f64,
-    /// Whether one slot makes most of an error.
+    /// Whether one slot makes most of a predicted error or a frame is flagged: the error then may be any.
     pub is_of_one: [bool; 3],
 }
 

@@ -223,7 +223,9 @@ fn of_rows(
 }
 
 /// How often a target is tightened where the profile that was found misses it.
-const TRIES: usize = 6;
+const TRIES: i32 = 6;
+/// By how much further from try to try: what a slot was off that no prediction has seen need not follow the words.
+const FURTHER: f64 = 0.9;
 
 /// The best profile of all models, of a row and of the start, as judged. The model of fewest predicted LUT4 comes
 /// first; nothing is run that would not be smaller than what holds.
@@ -241,14 +243,15 @@ fn verified(
     let mut best = row.unwrap_or(start);
     for (_, model) in by_luts {
         let mut most = target.0;
-        for _ in 0..if tightens { TRIES } else { 1 } {
+        for attempt in 0..if tightens { TRIES } else { 1 } {
             let bits = model.cheapest(&most);
             if best.holds() && model.luts(&bits) >= best.luts {
                 break;
             }
             let tried = Verified::run(trial, model, &bits, target)?;
             let holds = tried.holds();
-            most = tightened(most, &model.squares(&bits), &tried.judged.errors, target);
+            let further = FURTHER.powi(attempt);
+            most = tightened(most, &model.squares(&bits), (&tried.judged.errors, further), target);
             if tried.is_better(&best) && (holds || tried.luts <= most_luts) {
                 best = tried;
             }
@@ -260,16 +263,17 @@ fn verified(
     Ok(best)
 }
 
-/// Limits of what is predicted, so much smaller as measured errors are beyond the target.
+/// Limits of what is predicted, so much smaller as measured errors are beyond the target, and by a factor.
 fn tightened(
     most: [Option<f64>; 3],
     squares: &[f64; 3],
-    measured: &[Error; 3],
+    (measured, further): (&[Error; 3], f64),
     target: &Target,
 ) -> [Option<f64>; 3] {
     let limit = |n: usize| {
         let of = target.0[n].filter(|of| measured[n].rms > *of);
-        let tighter = of.map(|of| 0.99 * squares[n].max(0.0).sqrt() * of / measured[n].rms);
+        let tighter =
+            of.map(|of| 0.99 * further * squares[n].max(0.0).sqrt() * of / measured[n].rms);
         tighter.or(most[n])
     };
     [0, 1, 2].map(limit)

@@ -36,7 +36,7 @@ pub struct Point {
     pub looped: LoopErrors,
     /// The least amplitude of a channel in steps of the ADC.
     pub least_codes: f64,
-    /// Whether one slot makes most of a predicted error, which then may be any.
+    /// Whether one slot makes most of a predicted error or a frame is flagged: the error then may be any.
     pub is_of_one: [bool; 3],
     /// What the predicted errors are made of.
     #[serde(skip)]

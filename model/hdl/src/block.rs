@@ -49,6 +49,13 @@ pub trait Interpretation: Storage {
         block.clock(state, inputs)
     }
 
+    /// What is done within the instance of a block outside of [`instance`](Self::instance), as where it runs through
+    /// its cycles by itself.
+    #[inline(always)]
+    fn within<T>(_name: &'static str, act: impl FnOnce() -> T) -> T {
+        act()
+    }
+
     /// A name for a signal within a block, which the netlist prints.
     #[inline(always)]
     fn name(a: Signal<Self>, _name: &'static str) -> Signal<Self> {

@@ -161,6 +161,12 @@ impl Core {
         self.estimator.place_at_once(table);
     }
 
+    /// From now on interpretations that decide by codes compute positions without their clocks, with all that they have
+    /// beside codes.
+    pub(crate) fn place_by_statements(&mut self) {
+        self.estimator.place_by_statements();
+    }
+
     /// Clocks from the strobe of a window's last sample to its prompt estimate.
     pub fn prompt_latency(&self) -> u64 {
         1 + self.oscillator.latency() + self.demodulator.latency() + self.estimator.prompt_latency()

@@ -267,8 +267,18 @@ impl Estimator {
     /// From now on interpretations that know every bit need not look at all blocks in each clock:
     /// [`Position::place_at_once`], and the others run through their clocks as they are started.
     pub(crate) fn place_at_once(&mut self, table: Vec<i64>) {
-        self.hurried = true;
         self.position.place_at_once(table);
+        self.hurry();
+    }
+
+    /// The same with [`Position::place_by_statements`].
+    pub(crate) fn place_by_statements(&mut self) {
+        self.position.place_by_statements();
+        self.hurry();
+    }
+
+    fn hurry(&mut self) {
+        self.hurried = true;
         self.currents.hurry();
         self.ratio.hurry();
         self.capacitance.hurry();

@@ -17,7 +17,8 @@
 //!
 //! with the noise σ of a sample in steps, which the samples show (source: Widrow and Kollár, Quantization Noise, 2008:
 //! the Fourier series of the rounding error). Where a channel meets few codes, the rounding of all
-//! is what it is for these samples. From there on the estimator is run as [`Noise`].
+//! is what it is for these samples. From there on the estimator is run as [`Noise`], a block after the other, and the
+//! position's program by its statements (`position/by_statement.rs`): as in every clock, in a twelfth of the time.
 
 use super::fixed::{FixedSimulation, calibrated, quiet, run};
 use super::tone::WindowedSample;
@@ -75,6 +76,8 @@ pub struct Prediction {
     /// The least amplitude of a terminal or of the sensing voltage, in steps of the ADC: see
     /// [`Predictor::FEW_CODES`].
     pub least_codes: f64,
+    /// A word is saturated or no place has these ratios: errors are then not those of rounding.
+    pub is_flagged: bool,
 }
 
 /// The bound of a sum over a window's samples, whose roundings do not all go the same way, in standard
@@ -116,7 +119,12 @@ impl Predictor {
     /// # Errors
     /// A core that cannot be.
     pub fn new(profile: &Profile, calibration: &Calibration) -> Result<Self, ProfileError> {
-        let core = Core::try_new(profile)?;
+        let mut core = Core::try_new(profile)?;
+        core.place_by_statements();
+        Ok(Self::of_core(core, profile, calibration))
+    }
+
+    fn of_core(core: Core, profile: &Profile, calibration: &Calibration) -> Self {
         let of_codes = FixedSimulation::<i64>::new(profile, calibration);
         let of_reals = FixedSimulation::<Real>::new(profile, calibration);
         let recording = Recording::begin();
@@ -136,7 +144,7 @@ impl Predictor {
         let power = |of: usize| waves[1].iter().map(|sample| sample[of] * sample[of]).sum::<f64>();
         let repeat = repeat(profile.slot.integrate as usize, profile.carrier.periods as usize);
         let tone = [0, 1].map(|of| [power(of), power_by_phase(&waves[1], of, repeat)]);
-        Ok(Predictor {
+        Predictor {
             tone,
             window: power(2),
             window_sum: waves[1].iter().map(|sample| sample[2]).sum(),
@@ -152,7 +160,7 @@ impl Predictor {
             of_codes,
             of_reals,
             waves,
-        })
+        }
     }
 
     /// What the core's results for a slot with these signals are off.
@@ -168,8 +176,9 @@ impl Predictor {
         let quiet = Inputs { pad, clipped, ..self.quiet };
         let mut state = self.state.clone();
         let estimator = &mut state.submodules.estimator;
-        run(self.core.estimator(), estimator, &quiet, &sums, &mut None);
-        Prediction { least_codes, ..self.results(&state) }
+        let flags = run(self.core.estimator(), estimator, &quiet, &sums, &mut None).flags;
+        let is_flagged = flags.saturated || flags.invalid;
+        Prediction { least_codes, is_flagged, ..self.results(&state) }
     }
 
     /// The sums with their errors, of the oscillator's words and of the ADC; and the least amplitude in
@@ -251,7 +260,7 @@ impl Predictor {
             capacitance: of(within.capacitance.registers.capacitance),
             force: of(by_eq8.or(by_table).expect("one law or the other")),
             mean_square: of(within.haptic_voltage.registers.mean_square),
-            least_codes: 0.0,
+            ..Prediction::default()
         }
     }
 }
@@ -300,3 +309,6 @@ fn sums_of_samples(waves: &[WindowedSample], samples: &[f64]) -> Vec<f64> {
     }
     sums
 }
+
+#[cfg(test)]
+mod tests;

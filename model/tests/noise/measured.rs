@@ -116,7 +116,7 @@ pub fn predicted(
         if count >= PREDICTED * scene.points.len() && least_codes >= Predictor::FEW_CODES {
             break;
         }
-        let Prediction { x, y, capacitance, force, mean_square, least_codes: codes } =
+        let Prediction { x, y, capacitance, force, mean_square, least_codes: codes, .. } =
             predictor.slot(0, Signals::Samples(&samples));
         least_codes = least_codes.min(codes);
         for (sum, of) in sums.iter_mut().zip([x, y, capacitance, force, mean_square]) {

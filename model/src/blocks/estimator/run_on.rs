@@ -30,21 +30,23 @@ impl Estimator {
         let Given { to_currents, to_haptic, to_ratio, to_capacitance, to_force } = given;
         let within = &mut state.submodules;
         if is_set(to_currents.valid & self.currents.is_last(to_currents.index)) {
-            self.currents.run_on(&mut within.currents, to_currents);
-            self.haptic_voltage.run_on(&mut within.haptic_voltage, to_haptic);
+            V::within("currents", || self.currents.run_on(&mut within.currents, to_currents));
+            let block = &self.haptic_voltage;
+            V::within("haptic_voltage", || block.run_on(&mut within.haptic_voltage, to_haptic));
         }
         if is_set(to_ratio.start) {
-            self.ratio.run_on(&mut within.ratio, to_ratio);
+            V::within("ratio", || self.ratio.run_on(&mut within.ratio, to_ratio));
         }
         // In the clock after its start: the sheet's resistance is not that of a prompt estimate before.
         if !is_set(to_capacitance.start) && self.capacitance.is_busy(&within.capacitance) {
-            self.capacitance.run_on(&mut within.capacitance, to_capacitance);
+            let block = &self.capacitance;
+            V::within("capacitance", || block.run_on(&mut within.capacitance, to_capacitance));
         }
         if let Some((block, within)) =
             self.force_estimator.as_ref().zip(within.force_estimator.as_mut())
             && is_set(to_force.start)
         {
-            block.run_on(within, to_force);
+            V::within("force_estimator", || block.run_on(within, to_force));
         }
     }
 }

@@ -70,13 +70,33 @@ impl Banks {
         address: usize,
         word: Signal<V>,
     ) {
+        let (bank, words, address) = self.bank(state, address);
+        bank.access(words, address, Write { enable: bit(true), address, data: word });
+    }
+
+    /// A word, without a clock.
+    pub(super) fn word<V: Interpretation>(
+        &self,
+        state: &mut State<Self, V>,
+        address: usize,
+    ) -> Signal<V> {
+        let (bank, words, address) = self.bank(state, address);
+        bank.read(words, address);
+        bank.data(words)
+    }
+
+    /// The bank of a word, and the word's address in it.
+    fn bank<'a, V: Interpretation>(
+        &'a self,
+        state: &'a mut State<Self, V>,
+        address: usize,
+    ) -> (&'a Memory, &'a mut V::Words, Signal<V>) {
         let within = &mut state.submodules;
         let (bank, words) = match address < self.low.words {
             true => (&self.low, &mut within.low),
             false => (&self.high, &mut within.high),
         };
-        let address = int((address % bank.words) as u64).resize(bank.address(), Proved);
-        bank.access(words, address, Write { enable: bit(true), address, data: word });
+        (bank, words, int((address % bank.words) as u64).resize(bank.address(), Proved))
     }
 }
 

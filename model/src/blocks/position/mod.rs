@@ -39,6 +39,7 @@
 
 mod at_once;
 mod banks;
+mod by_statement;
 mod instruction;
 mod leaps;
 mod program;
@@ -50,6 +51,7 @@ use self::banks::Banks;
 use self::instruction::{COUNT, LOW, OPEN, Operation, SCALARS, SHARE, SURFACE, WRAP};
 use self::leaps::Leaps;
 use self::program::Program;
+use self::trace::Trace;
 use super::multiplier::{self, Multiplier};
 use hapticore_contract::calibration::Layout;
 use hapticore_contract::profile::Profile;
@@ -94,6 +96,15 @@ states! {
     }
 }
 
+/// How the program's results come without its cycles.
+#[derive(Debug, Clone)]
+enum Shortcut {
+    /// As codes, whatever else an interpretation has.
+    Codes(Box<AtOnce>),
+    /// With all that an interpretation has.
+    Statements(Arc<Trace>),
+}
+
 block! {
     /// Position and sheet resistance from the ratios.
     pub struct Position("position") {
@@ -109,8 +120,8 @@ block! {
         word: Format,
         position: Format,
         sheet: Format,
-        /// For interpretations as codes, which need not step the program's cycles.
-        at_once: Option<AtOnce>,
+        /// For interpretations that need not step the program's cycles.
+        at_once: Option<Shortcut>,
         /// For clocks of codes at which nobody looks; made when first used.
         leaps: Arc<OnceLock<Leaps>>,
     }
@@ -269,11 +280,29 @@ impl Position {
     /// From now on interpretations of codes have their results in the clock after `start`, with a
     /// table of these codes.
     pub(crate) fn place_at_once(&mut self, table: Vec<i64>) {
-        self.at_once = Some(AtOnce::new(self, table));
+        self.at_once = Some(Shortcut::Codes(Box::new(AtOnce::new(self, table))));
+    }
+
+    /// From now on interpretations that decide by codes have their results in the clock after `start`, with all that
+    /// they have beside codes.
+    pub(crate) fn place_by_statements(&mut self) {
+        let program = Program::new(self.word);
+        let trace = Trace::of(&program, self.steps, self.wait);
+        self.at_once = Some(Shortcut::Statements(Arc::new(trace)));
     }
 
     /// The registers in the clock after `start`, without the program's clocks.
-    fn placed<V: Interpretation>(&self, at_once: &AtOnce, r: Regs<V>, i: &In<V>) -> Regs<V> {
+    fn placed<V: Interpretation>(
+        &self,
+        shortcut: &Shortcut,
+        state: &mut State<Self, V>,
+        i: &In<V>,
+    ) -> Regs<V> {
+        let at_once = match shortcut {
+            Shortcut::Codes(at_once) => at_once,
+            Shortcut::Statements(trace) => return self.by_statements(trace, state, i),
+        };
+        let r = state.load(self);
         let placed = at_once.run([i.r_x, i.r_y, i.share].map(V::code));
         let [x, y, sheet] = placed.outputs;
         let flag = |set: bool| bit(set);
@@ -331,8 +360,9 @@ impl Block for Position {
         if (i.start | r.running | r.done | i.table.write).can_skip() {
             return outputs;
         }
-        if let Some(at_once) = self.at_once.as_ref().filter(|_| V::DECIDES && is_set(i.start)) {
-            state.store(self, self.placed(at_once, r, &i));
+        if let Some(shortcut) = self.at_once.as_ref().filter(|_| V::DECIDES && is_set(i.start)) {
+            let next = self.placed(shortcut, state, &i);
+            state.store(self, next);
             return outputs;
         }
         let now = self.decode(&r);
@@ -527,11 +557,10 @@ impl Position {
         let (digit, quotient) = (does(Operation::LoadDigit), does(Operation::LoadQuotient));
         let loads = does(Operation::Load) | does(Operation::LoadCell) | digit | quotient;
         let tables = does(Operation::MultiplyTable);
-        let sum = (r.sum + read.product).resize(r.sum.format, Proved);
+        let sum = self.sum_with(&r, read.product);
         let added = when!(r.pending.msb() => sum, else r.sum);
         let clears = does(Operation::Store) | does(Operation::Output);
-        let cell = Format::signed(6, 5);
-        let whole = read.word.quantize(cell, Floor, Proved);
+        let whole = self.whole(read.word);
         let word = r.floors.select(whole, read.word);
         let operand = r.digits.select(self.of_digits(&r), word);
         let (multiplies, tables_word, right) = match self.banks {
@@ -540,7 +569,6 @@ impl Position {
         };
         let factor = tables_word.select(read.of_table, r.left);
         let pending = r.pending.concat(multiplies);
-        let bits = r.quotient.format.width;
         Registers {
             loads,
             floors: does(Operation::LoadCell),
@@ -552,10 +580,28 @@ impl Position {
             factor: multiplies.select(factor, r.factor),
             word: multiplies.select(right, r.word),
             sum: when!(clears => self.half(), else added),
-            quotient: digit.select(r.quotient.concat(!r.sum.msb()).bits(0, bits), r.quotient),
+            quotient: digit.select(self.with_digit(&r), r.quotient),
             base: self.next_base(&r, now),
             ..r
         }
+    }
+
+    /// The sum with a product more.
+    #[inline(always)]
+    fn sum_with<V: Interpretation>(&self, r: &Regs<V>, product: Signal<V>) -> Signal<V> {
+        (r.sum + product).resize(r.sum.format, Proved)
+    }
+
+    /// A place without its fraction of a cell.
+    #[inline(always)]
+    fn whole<V: Interpretation>(&self, word: Signal<V>) -> Signal<V> {
+        word.quantize(Format::signed(6, 5), Floor, Proved)
+    }
+
+    /// The quotient with a digit more, which is set where the sum is not negative.
+    #[inline(always)]
+    fn with_digit<V: Interpretation>(&self, r: &Regs<V>) -> Signal<V> {
+        r.quotient.concat(!r.sum.msb()).bits(0, r.quotient.format.width)
     }
 
     /// What has registers of its own, after this clock; `on`: the next instruction is taken.

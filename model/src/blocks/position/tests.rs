@@ -149,33 +149,46 @@ fn numbers_that_are_not_rounded_take_the_step_of_the_codes() {
 /// those of a device few.
 #[test]
 fn places_that_are_found_at_once_are_those_of_the_program() {
-    let profile = Profile::bundled("small").expect("bundled");
-    let (word, mut random) = (profile.formats.table, Random::new(5));
-    let of_device = calibration(&profile).position.words;
-    let any = of_device.iter().map(|_| random.word(word)).collect();
-    let of_device = of_device.into_iter().map(|real| word.code_saturating(real)).collect();
-    for words in [of_device, any] {
-        check_at_once(&profile, words);
+    // Words in one memory, and in two banks.
+    for name in ["small", "fine"] {
+        let profile = Profile::bundled(name).expect("bundled");
+        let (word, mut random) = (profile.formats.table, Random::new(5));
+        let of_device = calibration(&profile).position.words;
+        let any = of_device.iter().map(|_| random.word(word)).collect();
+        let of_device = of_device.into_iter().map(|real| word.code_saturating(real)).collect();
+        for words in [of_device, any] {
+            check_at_once(&profile, words);
+        }
     }
 }
 
 fn check_at_once(profile: &Profile, words: Vec<i64>) {
-    let [mut clocked, mut at_once] = [(); 2].map(|()| Bench::new(Position::new(profile)));
-    for (address, &word) in words.iter().enumerate() {
-        let word = code(word, profile.formats.table);
-        clocked.block.set_word(&mut clocked.state, address, word);
+    let [mut clocked, mut at_once, mut by_statements] =
+        [(); 3].map(|()| Bench::new(Position::new(profile)));
+    for bench in [&mut clocked, &mut by_statements] {
+        for (address, &word) in words.iter().enumerate() {
+            let word = code(word, profile.formats.table);
+            bench.block.set_word(&mut bench.state, address, word);
+        }
     }
     at_once.block.place_at_once(words);
+    by_statements.block.place_by_statements();
     let half = profile.formats.ratio.max_code() as i64 / 2;
     let quiet = |i: Inputs<i64>| Inputs { table: TablePort { write: 0, ..i.table }, start: 0, ..i };
     for (k, i) in (0..).zip(cases(&clocked.block, MILLION / 5000, 3).map(quiet)) {
         // Along one axis, both or none surely on the sheet.
         let i = if k % 2 == 0 { Inputs { r_x: i.r_x % half, ..i } } else { i };
         let i = if k % 3 == 0 { Inputs { r_y: i.r_y % half, ..i } } else { i };
-        let (expected, _) = clocked.operate(i);
-        at_once.clock(Inputs { start: 1, ..i });
-        let [placed, expected] = [at_once.clock(i), expected].map(show::<super::Outputs>);
-        assert_eq!(placed, expected, "of {}", show::<Inputs>(i));
+        let expected = show::<super::Outputs>(clocked.operate(i).0);
+        for bench in [&mut at_once, &mut by_statements] {
+            bench.clock(Inputs { start: 1, ..i });
+            assert_eq!(
+                show::<super::Outputs>(bench.clock(i)),
+                expected,
+                "of {}",
+                show::<Inputs>(i)
+            );
+        }
     }
 }
 

@@ -299,10 +299,14 @@ impl Interpretation for Noise {
         state: &mut State<B, Self>,
         inputs: Inputs<B, Signal<Self>>,
     ) -> Outputs<B, Signal<Self>> {
+        Noise::within(name, || block.clock(state, inputs))
+    }
+
+    fn within<T>(name: &'static str, act: impl FnOnce() -> T) -> T {
         let before = with(|tape| tape.enter(name));
-        let outputs = block.clock(state, inputs);
+        let result = act();
         with(|tape| tape.scope = before);
-        outputs
+        result
     }
 
     fn can_skip(busy: Self) -> bool {
