@@ -93,8 +93,7 @@ fn what_a_random_profile_meets_is_met_on_unseen_slots_and_no_larger() {
         assert!(found.cost.luts <= found.before.luts || found.holds(), "{}", found.text());
     }
     println!("{met} of {count} met, {} larger than a random profile", larger.len());
-    println!("{}", larger.join("\n"));
-    assert!(10 * larger.len() <= count, "{}", larger.join("\n"));
+    assert!(larger.is_empty(), "{}", larger.join("\n"));
     assert!(10 * met >= 9 * count, "{met} of {count} met");
 }
 
