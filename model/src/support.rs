@@ -16,8 +16,11 @@ mod in_place;
 pub mod never_skips;
 #[path = "../tests/equality/random.rs"]
 pub mod random;
+#[path = "../tests/equality/tally.rs"]
+mod tally;
 
 pub use comparison::{
-    MILLION, cases, check, check_latency, check_latency_of, check_restart, check_run_on, within,
+    MILLION, cases, check, check_latency, check_latency_of, check_rest, check_restart,
+    check_run_on, within,
 };
 pub use harness::{Bench, operations, show};

@@ -17,6 +17,7 @@
 //! | [`harness`] | a core between shift registers, so that it can be placed without a board |
 //! | [`loops`] | force loops whose area and clock are reported |
 //! | [`isolation`] | proof that no pad can change another's frame |
+//! | [`equivalence`] | proof that a mutant of a netlist changes no output, for all codes |
 //! | [`cells`] | cells of an FPGA, counted by what they are |
 //! | [`report`] | what is committed in `synth/reports/`, as JSON and as text |
 //! | [`sources`] | the Verilog that a report is about, and its hash |
@@ -28,6 +29,7 @@
 pub mod cells;
 pub mod certificates;
 pub mod claims;
+pub mod equivalence;
 pub mod flow;
 pub mod formal;
 pub mod harness;

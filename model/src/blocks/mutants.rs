@@ -7,6 +7,12 @@ use crate::support::campaign::{Table, group, wanted};
 /// Mutants that no test notices, and that no tool has proved to be equivalent.
 const MISSED: &str = include_str!("mutants.txt");
 
+/// Mutants that are proved to be equivalent, in their block or in cores, by `synth/tests/toolchain/mutants/`.
+const PROVED: [&str; 2] = [include_str!("equivalent.txt"), include_str!("equivalent_in_cores.txt")];
+
+/// The page with the table of results.
+const PAGE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/mutation.md");
+
 /// Judged always: every n-th mutant of a block.
 const SAMPLE: [(&str, usize); 3] = [("multiplexer", 1), ("pace", 1), ("multiplier", 2)];
 
@@ -21,7 +27,8 @@ fn judge(block: &str, step: usize, table: &mut Table) {
     // The drives' tests are those of the wall on the right, too.
     let tests = if block == "sided_wall" { "drives" } else { block };
     let path = format!("::blocks::{block}::");
-    group(&format!("blocks::{tests}::"), |of| of.contains(&path)).judge_each(step, table);
+    let group = group(&[&format!("blocks::{tests}::")], |of| of.contains(&path));
+    group.with_proved(&PROVED.concat()).judge_each(step, table);
 }
 
 #[test]
@@ -31,5 +38,8 @@ fn mutants_of_the_netlists_are_noticed() {
         SAMPLE.iter().for_each(|&(block, step)| judge(block, step, &mut table));
     }
     blocks().filter(|block| wanted(block)).for_each(|block| judge(block, 1, &mut table));
+    if std::env::var_os("MUTANTS").is_some() {
+        table.write(PAGE, "Blocks of the core:");
+    }
     table.check(MISSED);
 }

@@ -145,6 +145,24 @@ pub fn check_restart<B: Block>(
     }
 }
 
+/// Clocks in which a block that nothing has started is watched: more than an operation takes that has begun by itself.
+const REST: u64 = 3000;
+
+/// Holds that from reset on every output is zero while the inputs of these names are, whatever the others.
+pub fn check_rest<B: Block>(block: B, starts: &[&str]) {
+    let mut bench = Bench::new(block);
+    let (formats, mut random) = (bench.block.inputs(), Random::new(6));
+    for _ in 0..REST {
+        let any = B::Inputs::map(formats, |format| random.word(format));
+        let inputs = starts.iter().fold(any, |inputs, name| with::<B::Inputs>(inputs, name, 0));
+        let outputs = bench.clock(inputs);
+        let text = show::<B::Outputs>(outputs);
+        B::Outputs::each(outputs, |field, code| {
+            assert_eq!(code, 0, "{}.{}, clock {}: {text}", B::NAME, field.name, bench.clock);
+        });
+    }
+}
+
 /// Random inputs of a block, corners among them.
 pub fn cases<B: Block>(
     block: &B,

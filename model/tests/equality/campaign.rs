@@ -9,6 +9,8 @@
 //!    process of their own, with few random operations first and more where none of them fails.
 //! 3. A mutant is noticed where a test fails. A timeout is no failure.
 
+pub use super::tally::{Table, Verdict};
+
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::File;
 use std::path::PathBuf;
@@ -23,17 +25,6 @@ const SHARES: [&str; 2] = ["2000", "100"];
 /// Both are generous: a processor may have other work.
 const LIMIT: (u32, u64) = (10, 20);
 
-/// What became of a mutant.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Verdict {
-    /// A test failed.
-    Noticed,
-    /// No test failed.
-    Survived,
-    /// No test failed within the time.
-    TimedOut,
-}
-
 /// Mutants, and the tests that judge each: those that clock its block alone, else those that clock it within another.
 #[derive(Debug, Clone, Default)]
 pub struct Group {
@@ -41,15 +32,6 @@ pub struct Group {
     /// Those that are proved to be equivalent, of each configuration that a test has.
     proved: BTreeSet<String>,
     took: Duration,
-}
-
-/// How many mutants of each block and class there are, and how many are noticed.
-#[derive(Debug, Default)]
-pub struct Table {
-    /// By block and class: all, noticed, proved to be equivalent, missed.
-    pub counts: BTreeMap<(String, String), [usize; 4]>,
-    /// Those that are missed.
-    pub missed: Vec<(String, Verdict)>,
 }
 
 /// Whether all mutants are judged (`MUTANTS=all`), or those of the blocks named (`MUTANTS=pace,ratio`).
@@ -83,20 +65,20 @@ fn run(tests: &[&str], variables: &[(&str, &str)], limit: Duration) -> (Vec<Stri
     (text.lines().filter_map(failed).collect(), ended)
 }
 
-/// The mutants of blocks whose path `of` selects, and their tests among those whose names contain `filter`. These run once
+/// The mutants of blocks whose path `of` selects, and their tests among those whose names contain a filter. These run once
 /// with the unchanged netlists. Tests that fail then are named and not asked: blocks that are hurried have no netlist.
 ///
 /// # Panics
 /// Where they do not end.
-pub fn group(filter: &str, of: impl Fn(&str) -> bool) -> Group {
-    let folder = tempfile(filter);
+pub fn group(filters: &[&str], of: impl Fn(&str) -> bool) -> Group {
+    let folder = tempfile(&filters.concat());
     let path = folder.to_str().expect("a path in UTF-8");
     let variables =
         [("HAPTICORE_MUTANT", "none"), ("HAPTICORE_MUTANTS", path), ("HAPTICORE_SHARE", SHARES[0])];
     let begun = Instant::now();
-    let (failed, ended) = run(&[filter], &variables, Duration::from_secs(3600));
+    let (failed, ended) = run(filters, &variables, Duration::from_secs(3600));
     let took = begun.elapsed();
-    assert!(ended, "{filter}: tests end");
+    assert!(ended, "{filters:?}: tests end");
     failed.iter().for_each(|test| println!("not asked: {test}"));
     let text = std::fs::read_to_string(&folder).unwrap_or_default();
     let _ = std::fs::remove_file(folder);
@@ -136,12 +118,20 @@ fn listed(text: &str, of: impl Fn(&str, &str) -> bool) -> (Tests, BTreeSet<Strin
 }
 
 impl Group {
-    /// One mutant's verdict: with few operations, then with more.
-    fn judge(&self, mutant: &str, tests: &BTreeSet<String>) -> Verdict {
+    /// Those of a list, a line each, are proved to be equivalent, too.
+    #[must_use]
+    pub fn with_proved(mut self, list: &str) -> Self {
+        let listed = list.lines().filter(|line| self.mutants.contains_key(*line));
+        self.proved.extend(listed.map(String::from));
+        self
+    }
+
+    /// One mutant's verdict: with few operations, then with more, unless it is proved to be equivalent.
+    fn judge(&self, mutant: &str, tests: &BTreeSet<String>, proved: bool) -> Verdict {
         let mut tests: Vec<&str> = tests.iter().map(String::as_str).collect();
         tests.push("--exact");
-        for share in SHARES {
-            let variables = [("HAPTICORE_MUTANT", mutant), ("HAPTICORE_SHARE", share)];
+        for share in if proved { &SHARES[..1] } else { &SHARES[..] } {
+            let variables = [("HAPTICORE_MUTANT", mutant), ("HAPTICORE_SHARE", *share)];
             let limit = self.took * LIMIT.0 + Duration::from_secs(LIMIT.1);
             match run(&tests, &variables, limit) {
                 (failed, _) if !failed.is_empty() => return Verdict::Noticed,
@@ -159,56 +149,11 @@ impl Group {
         let next = || mutants.lock().expect("no panic").next();
         let work = || {
             while let Some((mutant, tests)) = next() {
-                let verdict = self.judge(mutant, tests);
                 let proved = self.proved.contains(mutant);
+                let verdict = self.judge(mutant, tests, proved);
                 table.lock().expect("no panic").enter(mutant, verdict, proved);
             }
         };
         std::thread::scope(|scope| (0..2).for_each(|_| drop(scope.spawn(work))));
-    }
-}
-
-impl Table {
-    fn enter(&mut self, mutant: &str, verdict: Verdict, proved: bool) {
-        let (place, class) = mutant.rsplit_once(": ").expect("place: class");
-        let (block, _) = place.split_once('.').expect("module.place");
-        let count = self.counts.entry((block.into(), class.into())).or_default();
-        let of = match verdict {
-            Verdict::Noticed => 1,
-            _ if proved => 2,
-            _ => 3,
-        };
-        count[0] += 1;
-        count[of] += 1;
-        if of == 3 {
-            self.missed.push((mutant.into(), verdict));
-        }
-    }
-
-    /// Counts by block and class, and every mutant that is missed.
-    pub fn print(&self) {
-        for ((block, class), [all, noticed, proved, _]) in &self.counts {
-            println!("{block}, {class}: {noticed} of {all} noticed, {proved} proved equivalent");
-        }
-        for (mutant, verdict) in &self.missed {
-            println!("{verdict:?}: {mutant}");
-        }
-    }
-
-    /// Holds that every mutant is noticed, proved to be equivalent, or one of the list, a line each: those that are known to
-    /// be missed.
-    ///
-    /// # Panics
-    /// Where another one is missed, or none was judged.
-    pub fn check(&self, known: &str) {
-        self.print();
-        let sum = |of: usize| self.counts.values().map(|counts| counts[of]).sum::<usize>();
-        let [all, noticed, proved, missed] = [0, 1, 2, 3].map(sum);
-        println!("{noticed} of {all} noticed, {proved} proved equivalent, {missed} missed");
-        assert!(noticed > 0, "no mutant was judged");
-        let known: BTreeSet<&str> = known.lines().filter(|line| !line.starts_with('#')).collect();
-        let missed = self.missed.iter().map(|(mutant, _)| mutant.as_str());
-        let new: Vec<_> = missed.filter(|mutant| !known.contains(mutant)).collect();
-        assert!(new.is_empty(), "missed: {new:#?}");
     }
 }

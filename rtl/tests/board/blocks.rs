@@ -75,6 +75,14 @@ fn the_bits_of_a_carrier_sum_to_it() {
     assert!(worst < 1.0 && worst > 0.5, "{worst}");
 }
 
+/// A carrier of zero has a pulse every other clock. The first sum is half of full scale.
+#[test]
+fn the_bits_of_a_carrier_begin_with_none_and_nothing_left() {
+    let mut bench = Bench::new(SigmaDelta::new(Format::signed(16, 15)));
+    let pulses = [0; 6].map(|carrier| bench.clock(sigma_delta::Inputs { carrier }).pulse);
+    assert_eq!(pulses, [0, 0, 1, 0, 1, 0]);
+}
+
 impl Bench<SigmaDelta> {
     /// The output register, which a clock has just replaced.
     fn block_output(&self) -> f64 {
@@ -98,6 +106,35 @@ fn a_glitch_is_no_byte_and_a_break_is_one_end() {
     assert_eq!([hear(0, 12), hear(1, 96), hear(0, 9_000), hear(1, 100)], [1, 1, 2, 2], "a break");
     assert_eq!([hear(0, 12), hear(1, 200)], [2, 3], "and then a byte");
     assert_eq!(heard, [i64::from(END), i64::from(END), 0xff]);
+}
+
+#[test]
+fn a_line_at_rest_is_no_byte_and_a_transmitter_at_rest_leaves_it_high() {
+    let mut receiver = Bench::new(receiver::Receiver::new(12));
+    let mut transmitter = Bench::new(transmitter::Transmitter::new(7));
+    for clock in 0..200 {
+        let outputs = receiver.clock(receiver::Inputs { rx: 1 });
+        assert_eq!((outputs.valid, outputs.octet), (0, 0), "clock {clock}");
+        let outputs = transmitter.clock(transmitter::Inputs { valid: 0, octet: 0x55 });
+        assert_eq!((outputs.taken, outputs.tx), (0, 1), "clock {clock}");
+    }
+}
+
+/// Three clocks after the middle of the stop bit: two of the pin, and that of the register.
+#[test]
+fn a_byte_is_heard_in_the_middle_of_its_stop_bit_for_one_clock() {
+    const BIT: usize = 12;
+    let mut receiver = Bench::new(receiver::Receiver::new(BIT as u64));
+    for byte in [0x5a, 0xff, 0x00, 0x81] {
+        let line = |clock: usize| (byte << 1 | 0x200) >> (clock / BIT).min(9) & 1;
+        let heard: Vec<_> = (0..11 * BIT)
+            .filter_map(|clock| {
+                let outputs = receiver.clock(receiver::Inputs { rx: line(clock) });
+                (outputs.valid != 0).then_some((clock, outputs.octet))
+            })
+            .collect();
+        assert_eq!(heard, [(9 * BIT + BIT / 2 + 3, byte)]);
+    }
 }
 
 #[test]
@@ -173,9 +210,29 @@ fn every_command_is_taken() {
             let outputs = bench.clock(registers::Inputs { valid, octet, shift: 0, answer: 0 });
             assert_eq!(outputs.refused, 0, "{count}: {bytes:x?}");
             if outputs.table.write != 0 {
+                assert_eq!(written, None, "{count}: once");
                 written = Some((outputs.table.address as u16, outputs.table.word));
             }
         }
         assert_eq!(written, Some((address, code)), "{count}: {bytes:x?}");
+    }
+}
+
+#[test]
+fn registers_are_zero_until_a_command_and_what_is_none_is_refused_for_one_clock() {
+    let profile = Profile::bundled("small").expect("bundled");
+    let core = Core::new(&profile).inputs();
+    let mut bench = Bench::new(CommandRegisters::new(core.calibration, 100, None));
+    let quiet = registers::Inputs { valid: 0, octet: 0x55, shift: 0, answer: 1 };
+    for clock in 0..50 {
+        registers::Outputs::each(bench.clock(quiet), |field, code| {
+            assert_eq!(code, 0, "{} in clock {clock}", field.name);
+        });
+    }
+    for _ in 0..3 {
+        for octet in [1, END.into()] {
+            assert_eq!(bench.clock(registers::Inputs { valid: 1, octet, ..quiet }).refused, 0);
+        }
+        assert_eq!([0; 3].map(|_| bench.clock(quiet).refused), [1, 0, 0]);
     }
 }

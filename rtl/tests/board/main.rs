@@ -12,6 +12,8 @@ mod in_place;
 #[path = "../../../model/tests/equality/random.rs"]
 #[allow(dead_code)]
 mod random;
+#[path = "../../../model/tests/equality/tally.rs"]
+mod tally;
 
 mod bench;
 mod blocks;

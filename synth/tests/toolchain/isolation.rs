@@ -10,7 +10,7 @@ use hapticore_synth::isolation::{Seen, State};
 
 /// A profile with slots as short as they may be: what happens within does not depend on their
 /// length.
-fn short(mut profile: Profile) -> Profile {
+pub(super) fn short(mut profile: Profile) -> Profile {
     let samples = 4 * profile.samples_per_period().round() as u64;
     profile = profile.with_window(samples);
     profile.slot.open = 2;
@@ -27,7 +27,7 @@ fn short(mut profile: Profile) -> Profile {
     profile
 }
 
-fn place(ports: &[Named], name: &str) -> usize {
+pub(super) fn place(ports: &[Named], name: &str) -> usize {
     ports.iter().position(|port| port.name == name).unwrap_or_else(|| panic!("no port {name}"))
 }
 

@@ -14,3 +14,4 @@ mod formal;
 mod fresh;
 mod isolation;
 mod lint;
+mod mutants;

@@ -4,7 +4,7 @@
 use super::{Capacitance, Inputs};
 use crate::blocks::currents::Currents;
 use crate::blocks::rests::Rests;
-use crate::support::{Bench, MILLION, cases, check, check_latency, check_run_on};
+use crate::support::{Bench, MILLION, cases, check, check_latency, check_rest, check_run_on};
 use hapticore_contract::profile::Profile;
 use hapticore_reference::rounded::{self, Exact};
 
@@ -69,5 +69,13 @@ fn a_capacitance_that_is_run_on_is_the_same() {
                 assert_eq!((state.registers.step, state.registers.done), (0, 1));
             },
         );
+    }
+}
+
+#[test]
+fn without_a_start_there_is_no_capacitance() {
+    for profile in Profile::of_distinct_words() {
+        let amplitude = Currents::try_new(&profile).unwrap().amplitude();
+        check_rest(Capacitance::try_new(&profile, amplitude).unwrap(), &["start"]);
     }
 }

@@ -3,7 +3,7 @@
 
 use super::{Currents, Inputs, Outputs};
 use crate::support::random::Random;
-use crate::support::{Bench, MILLION, operations};
+use crate::support::{Bench, MILLION, check_rest, operations};
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::{Format, MAX_WIDTH};
@@ -206,5 +206,12 @@ fn latency_is_the_clocks_measured() {
             Some(bench.block.latency()),
             "clocks from the last sum (the mean square's) to done"
         );
+    }
+}
+
+#[test]
+fn without_sums_there_are_no_currents() {
+    for profile in Profile::of_distinct_words() {
+        check_rest(Currents::try_new(&profile).unwrap(), &["valid"]);
     }
 }

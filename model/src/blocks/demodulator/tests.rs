@@ -41,6 +41,7 @@ fn check_window(
     let (mut all_codes, mut carrier, mut channel, mut sums) =
         (Vec::new(), Vec::new(), 0, Vec::new());
     let mut clipped = 0;
+    let pad = random.below(profile.pads) as i64;
     for m in 0..samples {
         let codes: Vec<i64> = (0..profile.channels()).map(|_| random.word(adc)).collect();
         let [cosine, sine] = [random.word(lo), random.word(lo)];
@@ -55,7 +56,7 @@ fn check_window(
                 start,
                 first,
                 last,
-                pad: 0,
+                pad: if clock == 0 { pad } else { random.below(profile.pads) as i64 },
                 code,
                 cosine,
                 sine,
@@ -70,6 +71,7 @@ fn check_window(
                     "clock {}: sums in their order",
                     bench.clock
                 );
+                assert_eq!(out.pad, pad, "clock {}: that of the window", bench.clock);
                 sums.push(out.sum);
             }
         }
@@ -82,6 +84,7 @@ fn check_window(
         let out = bench.clock(quiet);
         if out.valid == 1 {
             assert_eq!(out.index, sums.len() as i64, "clock {}: sums in their order", bench.clock);
+            assert_eq!(out.pad, pad, "clock {}: that of the window", bench.clock);
             sums.push(out.sum);
         }
     }
@@ -94,6 +97,20 @@ fn check_window(
         bench.clock
     );
     assert_eq!(clipped != 0, expected.clipped, "clock {}: clipped, of {all_codes:?}", bench.clock);
+}
+
+#[test]
+fn without_a_start_there_is_no_sum() {
+    for (seed, profile) in (0..).zip(Profile::all()) {
+        let mut bench = Bench::new(Demodulator::try_new(&profile).unwrap());
+        let (formats, mut random) = (bench.block.inputs(), Random::new(seed));
+        for _ in 0..500 {
+            let any = Inputs::map(formats, |format| random.word(format));
+            let out = bench.clock(Inputs { start: 0, ..any });
+            let results = [out.valid, out.index, out.sum, out.pad, out.clipped];
+            assert_eq!(results, [0; 5], "clock {}", bench.clock);
+        }
+    }
 }
 
 #[test]

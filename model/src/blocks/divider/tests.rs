@@ -3,7 +3,9 @@
 //! the clocks they take.
 
 use super::{Divider, Inputs, Outputs};
-use crate::support::{Bench, MILLION, cases, check, check_latency, check_run_on};
+use crate::support::{
+    Bench, MILLION, cases, check, check_latency, check_rest, check_restart, check_run_on,
+};
 use hapticore_hdl::format::Format;
 use hapticore_reference::rounded::{Exact, round_quotient};
 
@@ -120,5 +122,28 @@ fn a_divider_refuses_what_it_cannot_divide() {
     );
     for signed in [["s8.4", "u4.2", "u7.5"], ["u8.4", "s4.2", "u7.5"], ["u8.4", "u4.2", "s7.5"]] {
         assert!(!of(signed), "{signed:?}");
+    }
+}
+
+/// Narrow and wide operands: of the narrow ones many quotients saturate.
+const RESTARTED: [[&str; 3]; 3] =
+    [["u8.6", "u4.4", "u3.2"], ["u12.4", "u9.7", "u7.3"], ["u27.23", "u28.23", "u24.22"]];
+
+#[test]
+fn a_quotient_is_begun_anew_in_any_clock_of_another() {
+    for texts in RESTARTED {
+        let [n, d, q] = texts.map(|text| text.parse().expect("a format"));
+        let bench = || Bench::new(Divider::new(n, d, q));
+        for _ in 0..8 {
+            check_restart([bench(), bench()], |latency| 1..=latency, |i| i);
+        }
+    }
+}
+
+#[test]
+fn a_divider_that_is_not_started_gives_nothing() {
+    for texts in RESTARTED {
+        let [n, d, q] = texts.map(|text| text.parse().expect("a format"));
+        check_rest(Divider::new(n, d, q), &["start"]);
     }
 }

@@ -2,7 +2,9 @@
 //! Forces: those of eq. 8, rounded; the clocks they take.
 
 use super::Force;
-use crate::support::{Bench, MILLION, cases, check, check_latency, check_restart, check_run_on};
+use crate::support::{
+    Bench, MILLION, cases, check, check_latency, check_rest, check_restart, check_run_on,
+};
 use hapticore_contract::profile::Profile;
 use hapticore_reference::rounded::{self, Exact};
 
@@ -46,5 +48,12 @@ fn forces_that_are_run_on_are_the_same() {
     for profile in Profile::of_distinct_words() {
         let block = || Force::try_new(&profile).unwrap();
         check_run_on([block(), block()], |i| i, |block, state, inputs| block.run_on(state, inputs));
+    }
+}
+
+#[test]
+fn without_a_start_there_is_no_force() {
+    for profile in Profile::of_distinct_words() {
+        check_rest(Force::try_new(&profile).unwrap(), &["start"]);
     }
 }

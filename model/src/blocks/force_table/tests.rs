@@ -5,7 +5,7 @@
 use super::{ForceTable, Inputs, Table, TablePort};
 use crate::support::device::calibration;
 use crate::support::random::Random;
-use crate::support::{Bench, MILLION, cases, check, check_latency_of, operations};
+use crate::support::{Bench, MILLION, cases, check, check_latency_of, check_rest, operations};
 use hapticore_contract::calibration::PastVoltage;
 use hapticore_contract::control::{Control, Law};
 use hapticore_contract::profile::Profile;
@@ -228,5 +228,12 @@ fn numbers_that_are_not_rounded_have_the_force_of_the_table() {
             let got = bench.state.registers.haptic_force.real;
             assert!((got / expected - 1.0).abs() < 1e-9, "{}: {got}, {expected}", profile.name);
         }
+    }
+}
+
+#[test]
+fn without_a_start_there_is_no_force() {
+    for profile in with_prompts() {
+        check_rest(bench(&profile).block, &["start", "write"]);
     }
 }

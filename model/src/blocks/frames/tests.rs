@@ -3,7 +3,7 @@
 
 use super::{Frames, Inputs, Outputs};
 use crate::support::random::Random;
-use crate::support::{Bench, MILLION, check_latency, operations};
+use crate::support::{Bench, MILLION, check_latency, check_rest, operations};
 use hapticore_contract::frame::Field;
 use hapticore_contract::profile::Profile;
 use hapticore_reference::rounded::{self, Exact};
@@ -80,5 +80,12 @@ fn a_frame_is_begun_anew_while_another_is_given_out() {
         assert!(indices.eq(0..Field::ALL.len() as i64), "after {clocks} clocks");
         let done = outputs.iter().position(|out| out.done == 1);
         assert_eq!(done, Some(latency as usize - 1), "after {clocks} clocks");
+    }
+}
+
+#[test]
+fn without_a_start_there_is_no_frame() {
+    for profile in Profile::of_distinct_words() {
+        check_rest(Frames::new(&profile), &["start"]);
     }
 }

@@ -3,7 +3,7 @@
 
 use super::{HapticVoltage, Inputs, Outputs};
 use crate::support::random::Random;
-use crate::support::{Bench, MILLION, operations};
+use crate::support::{Bench, MILLION, check_rest, operations};
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::{Format, MAX_WIDTH};
@@ -151,5 +151,12 @@ fn a_mean_square_that_cannot_be_rounded_is_refused() {
         profile.formats.mean_square.frac -= 1;
         let refused = HapticVoltage::try_new(&profile).expect_err("half a step is no word");
         assert!(refused.to_string().contains("formats.mean_square"), "{refused}");
+    }
+}
+
+#[test]
+fn without_sums_there_is_no_mean_square() {
+    for windows in [1, 2, 64] {
+        check_rest(of_windows(windows), &["valid"]);
     }
 }

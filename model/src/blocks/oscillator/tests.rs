@@ -79,6 +79,14 @@ fn a_window_that_begins_anew_depends_on_no_window_before() {
     }
 }
 
+#[test]
+fn waves_begin_with_phase_and_window_at_zero_after_a_reset() {
+    for profile in Profile::all() {
+        let mut waves = Waves::at_reset(&profile);
+        (0..20).for_each(|_| waves.check_sample([false, false]));
+    }
+}
+
 /// Compares `samples` samples, begun anew at random, with the reference.
 fn check_waves(profile: &Profile, seed: u64, samples: u64) {
     let (mut waves, mut random) = (Waves::new(profile), Random::new(seed));
@@ -100,21 +108,30 @@ struct Waves<'a> {
 impl<'a> Waves<'a> {
     /// Both at reset: waves are zero, and the first sample is that after a restart.
     fn new(profile: &'a Profile) -> Self {
+        let mut waves = Waves::at_reset(profile);
+        waves.check_sample([true, true]);
+        waves
+    }
+
+    /// Both at reset: waves are zero. Polyphase counts before a sample, else after it.
+    fn at_reset(profile: &'a Profile) -> Self {
         let bench = Bench::new(Oscillator::new(profile));
         let reference = rounded::Oscillator::new(profile);
-        let mut waves = Waves { profile, bench, reference, since_restart: 0, since_first: 0 };
+        let products = profile.carrier.method == Method::Products;
+        let since = if products { u64::MAX } else { 0 };
+        let mut waves =
+            Waves { profile, bench, reference, since_restart: since, since_first: since };
         let none = <Outputs as Bundle>::map(waves.bench.block.outputs(), |_| 0);
         let quiet = Inputs { sample: 0, restart: 0, first: 0 };
-        if profile.carrier.method == Method::Products {
+        if products {
             assert_eq!(waves.bench.clock(quiet), none, "at reset");
         }
-        waves.check_sample([true, true]);
         waves
     }
 
     /// Holds a sample to the reference.
     fn check_sample(&mut self, [restart, first]: [bool; 2]) {
-        let since = |begins: bool, before: u64| if begins { 0 } else { before + 1 };
+        let since = |begins: bool, before: u64| if begins { 0 } else { before.wrapping_add(1) };
         self.since_restart = since(restart, self.since_restart);
         self.since_first = since(first, self.since_first);
         let bench = &mut self.bench;

@@ -5,7 +5,7 @@ use super::program::Program;
 use super::{Inputs, Position, TablePort};
 use crate::support::device::calibration;
 use crate::support::random::Random;
-use crate::support::{Bench, MILLION, cases, check, check_latency_of, show, within};
+use crate::support::{Bench, MILLION, cases, check, check_latency_of, check_rest, show, within};
 use hapticore_contract::calibration::PositionTable;
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::block::Interpretation;
@@ -219,5 +219,12 @@ fn signals_are_named_as_their_operations() {
         let operation = instruction.operation;
         let letters = operation.name().strip_prefix("is_").unwrap_or_default().replace('_', "");
         assert_eq!(letters, format!("{operation:?}").to_lowercase());
+    }
+}
+
+#[test]
+fn without_a_start_there_is_no_place() {
+    for profile in Profile::of_distinct_words() {
+        check_rest(Position::new(&profile), &["start", "write"]);
     }
 }

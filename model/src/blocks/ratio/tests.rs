@@ -3,7 +3,9 @@
 
 use super::{Inputs, Ratio};
 use crate::blocks::currents::Currents;
-use crate::support::{Bench, MILLION, cases, check, check_latency_of, check_restart, check_run_on};
+use crate::support::{
+    Bench, MILLION, cases, check, check_latency_of, check_rest, check_restart, check_run_on,
+};
 use hapticore_contract::profile::Profile;
 use hapticore_reference::rounded::{self, Exact};
 
@@ -61,5 +63,14 @@ fn ratios_are_begun_as_soon_as_others_are_done() {
         let currents = Currents::try_new(&profile).unwrap();
         let block = || Ratio::try_new(&profile, currents.sums(), currents.least()).unwrap();
         check_restart([block(), block()].map(Bench::new), |latency| latency..=latency, bounded);
+    }
+}
+
+#[test]
+fn without_a_start_there_are_no_ratios() {
+    for profile in Profile::of_distinct_words() {
+        let currents = Currents::try_new(&profile).unwrap();
+        let block = Ratio::try_new(&profile, currents.sums(), currents.least()).unwrap();
+        check_rest(block, &["start"]);
     }
 }

@@ -3,7 +3,9 @@
 //! the clocks they take.
 
 use super::{Inputs, Outputs, SquareRoot};
-use crate::support::{Bench, MILLION, cases, check, check_latency, check_run_on, within};
+use crate::support::{
+    Bench, MILLION, cases, check, check_latency, check_rest, check_restart, check_run_on, within,
+};
 use hapticore_hdl::format::Format;
 use hapticore_reference::rounded::{Exact, round_sqrt};
 
@@ -94,4 +96,18 @@ fn a_square_root_refuses_what_it_cannot_take() {
     assert!(!of(Format::unsigned(8, 7), 3), "more than twice as many fractional bits");
     assert!(!of(Format::signed(8, 6), 3), "a sign");
     assert_eq!(SquareRoot::new(Format::unsigned(8, 6), 3).widest(), 10, "eight bits and a digit");
+}
+
+#[test]
+fn a_square_root_is_begun_anew_in_any_clock_of_another() {
+    for (radicand, frac) in [("u8.6", 3), ("u11.4", 5), ("u52.46", 23)] {
+        let radicand = radicand.parse().expect("a format");
+        let bench = || Bench::new(SquareRoot::new(radicand, frac));
+        check_restart([bench(), bench()], |latency| 1..=latency, |i| i);
+    }
+}
+
+#[test]
+fn a_square_root_that_is_not_started_gives_nothing() {
+    check_rest(SquareRoot::new(Format::unsigned(11, 4), 5), &["start"]);
 }

@@ -38,6 +38,17 @@ enum Fault {
     Stale(Sink),
 }
 
+/// What a register of every instance of a module starts with; both by their index.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Start {
+    /// The module.
+    pub module: usize,
+    /// Its register.
+    pub register: usize,
+    /// The code.
+    pub code: i64,
+}
+
 /// A place where a node is used.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 enum Sink {
@@ -83,8 +94,9 @@ impl Mutant {
         faults.map(named).collect()
     }
 
-    /// The netlist with the fault of this name in each module that has it, clocked; `None` where none has.
-    pub fn simulation(netlist: &Netlist, name: &str) -> Option<Simulation> {
+    /// The netlist with the fault of this name in each module that has it, and the registers that start with another code
+    /// than zero; `None` where no module has it.
+    pub fn netlist(netlist: &Netlist, name: &str) -> Option<(Netlist, Vec<Start>)> {
         let (mut mutated, mut starts) = (netlist.clone(), Vec::new());
         let mut found = false;
         for (index, own) in mutated.modules.iter_mut().enumerate() {
@@ -97,12 +109,21 @@ impl Mutant {
                 continue;
             };
             found = true;
-            starts.extend(mutant.start(module).map(|(register, code)| (index, register, code)));
+            let start = mutant.start(module);
+            starts.extend(start.map(|(register, code)| Start { module: index, register, code }));
             mutant.change(own);
         }
+        found.then_some((mutated, starts))
+    }
+
+    /// [`Mutant::netlist`], clocked.
+    pub fn simulation(netlist: &Netlist, name: &str) -> Option<Simulation> {
+        let (mutated, starts) = Mutant::netlist(netlist, name)?;
         let mut simulation = Simulation::new(mutated);
-        starts.iter().for_each(|&(module, register, code)| simulation.set(module, register, code));
-        found.then_some(simulation)
+        for Start { module, register, code } in starts {
+            simulation.set(module, register, code);
+        }
+        Some(simulation)
     }
 
     /// Whether it is proved that no output of the design, whose top the mutant is in, depends on it.

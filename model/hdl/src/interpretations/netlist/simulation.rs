@@ -158,8 +158,11 @@ fn codes(wires: &[i64], nodes: &[Node]) -> Vec<i64> {
     nodes.iter().map(|node| wires[node.0 as usize]).collect()
 }
 
-/// The result of an operation on wires of a module.
-pub(super) fn operate(op: &Op, module: &Module, wires: &[i64], to: Format) -> i64 {
+/// The result of an operation on wires of a module, whose codes are `wires`.
+///
+/// # Panics
+/// Where the operation takes nothing from wires: that of a port, register, memory or instance.
+pub fn operate(op: &Op, module: &Module, wires: &[i64], to: Format) -> i64 {
     let of = |node: Node| signal(node, module, wires);
     match *op {
         Op::Constant(code) => code,
