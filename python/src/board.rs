@@ -133,8 +133,12 @@ impl Link {
                 return Err(board_error(CLOSED));
             }
             let left_s = seconds.map_or(0.0, |seconds| seconds - begun.elapsed().as_secs_f64());
-            if frames.map_or(left_s <= 0.0, |frames| now >= frames) {
-                return Ok(self.background.take_rows(frames.unwrap_or(usize::MAX)));
+            let taken = match frames {
+                Some(frames) => self.background.take_exactly(frames),
+                None => (left_s <= 0.0).then(|| self.background.take_rows()),
+            };
+            if let Some(rows) = taken {
+                return Ok(rows);
             }
             if let Some(why) = why {
                 return Err(board_error(why));

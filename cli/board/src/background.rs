@@ -154,11 +154,16 @@ impl Background {
         is_so(&seen)
     }
 
-    /// Takes rows, the oldest first.
-    pub fn take_rows(&self, most: usize) -> Vec<Row> {
+    /// Takes all rows, the oldest first.
+    pub fn take_rows(&self) -> Vec<Row> {
+        self.shared.seen().rows.drain(..).collect()
+    }
+
+    /// Takes so many rows, the oldest first; none where fewer are there. Another thread may take some between a look
+    /// at how many there are and this.
+    pub fn take_exactly(&self, count: usize) -> Option<Vec<Row>> {
         let mut seen = self.shared.seen();
-        let count = most.min(seen.rows.len());
-        seen.rows.drain(..count).collect()
+        (count <= seen.rows.len()).then(|| seen.rows.drain(..count).collect())
     }
 
     /// Does something with the board, between two looks at its line; what it returns comes over the channel. That of a
