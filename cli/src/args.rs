@@ -241,7 +241,7 @@ Exit status: 0 done, 2 bad input, or data that do not tell what is asked of them
 #[derive(Debug, Clone, clap::Args)]
 pub struct CalibrateArgs {
     /// What was measured: places and loads as CSV, full scales and rates as TOML; or capacitances under loads, for a
-    /// scene's [gap]
+    /// scene's `[gap]`
     #[arg(required = true)]
     pub data: Vec<PathBuf>,
     /// The profile whose position table is tried on the places: a bundled name or a TOML file

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Designs clocked side by side on unknown codes: a sound one, and mutants of it.
 //!
-//! A wire carries a term ([`Terms`]). Inputs are constants, where a schedule says so, or unknowns that are the same for all
+//! A wire carries a term (`Terms`). Inputs are constants, where a schedule says so, or unknowns that are the same for all
 //! designs. An output at which a mutant has the sound design's term is equal for all codes.
 //!
 //! | begins as | what |

@@ -30,6 +30,9 @@ const BESIDE: [(&str, &str, &str); 10] = [
     ("host", "full_scale_v", "dac"),
 ];
 
+/// All but one line in this many are made for the argument that came most seldom.
+const FOR_RAREST: u8 = 3;
+
 /// One value in this many is hostile.
 const HOSTILE: u32 = 12;
 
@@ -77,7 +80,7 @@ impl<'a> Generator<'a> {
 
     /// A line, without the command's own name.
     pub fn line(&mut self) -> Vec<OsString> {
-        let seldom = self.rng.bool();
+        let seldom = self.rng.u8(..FOR_RAREST) > 0;
         let (path, leaf) = if seldom { self.rarest() } else { self.leaf() };
         let scene = self.values.scene(&mut self.rng);
         let mut groups: Vec<Vec<OsString>> = Vec::new();
