@@ -27,6 +27,7 @@ use anyhow::{Context, Result, anyhow, ensure};
 use hapticore_contract::profile::Profile;
 use hapticore_scene::signs_by_place;
 use serde::Deserialize;
+use serde::de::DeserializeOwned;
 
 use hapticore_host::Signs;
 use hapticore_host::text::with_key;
@@ -59,6 +60,17 @@ pub struct Setup {
     pub terminals: Terminals,
     /// The sheet, where its size is known.
     pub sheet: Option<Sheet>,
+}
+
+/// What a text of TOML holds, called `file` in messages.
+///
+/// # Errors
+/// It does not; the message names file, line and key.
+pub fn parsed<T: DeserializeOwned>(text: &str, file: &str) -> Result<T> {
+    toml::from_str(text).map_err(|error| {
+        let line = error.span().map_or(1, |span| text[..span.start].matches('\n').count() + 1);
+        anyhow!("{file}:{}", with_key(text, &format!("{line}: {}", error.message())))
+    })
 }
 
 fn standard_gravity() -> f64 {
@@ -105,10 +117,7 @@ impl Setup {
     /// # Errors
     /// It is none; the message names file, line and key.
     pub fn parse(text: &str, file: &str) -> Result<Setup> {
-        let setup: Setup = toml::from_str(text).map_err(|error| {
-            let line = error.span().map_or(1, |span| text[..span.start].matches('\n').count() + 1);
-            anyhow!("{file}:{}", with_key(text, &format!("{line}: {}", error.message())))
-        })?;
+        let setup: Setup = parsed(text, file)?;
         setup.check().with_context(|| file.to_string())?;
         Ok(setup)
     }

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Pad and insulators, by their keys in a scene and with a scene's defaults.
 
-use anyhow::{Result, anyhow, ensure};
-use hapticore_host::text::with_key;
+use anyhow::{Result, ensure};
 use serde::{Deserialize, Serialize};
+
+use crate::lab::setup::parsed;
 
 /// Pad and insulators, as a scene has them.
 #[derive(Debug, Clone, Default, Deserialize, Serialize)]
@@ -42,10 +43,7 @@ impl Default for Insulators {
 impl Setup {
     /// The setup that a text is, called `file` in messages.
     pub fn parse(text: &str, file: &str) -> Result<Setup> {
-        let setup: Setup = toml::from_str(text).map_err(|error| {
-            let line = error.span().map_or(1, |span| text[..span.start].matches('\n').count() + 1);
-            anyhow!("{file}:{}", with_key(text, &format!("{line}: {}", error.message())))
-        })?;
+        let setup: Setup = parsed(text, file)?;
         for (key, number) in [
             ("device.pad_diameter_mm", setup.device.pad_diameter_mm),
             ("device.gravity_m_s2", setup.device.gravity_m_s2),
