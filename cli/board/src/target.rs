@@ -7,7 +7,7 @@
 //! | `tcp:ADDRESS:PORT` | behind ser2net, or a virtual board in another process |
 //! | `virtual`, `virtual:SCENE` | a scene, in this process |
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail, ensure};
 use hapticore_contract::control::{Control, Law, Tuning};
@@ -148,7 +148,7 @@ fn virtual_board(asked: &Asked) -> Result<Target> {
     let board = virtual_device(asked)?;
     let (case, made) = (board.case().clone(), board.made());
     let device = match &asked.calibration {
-        Some(file) => DeviceCalibration::read(file)?,
+        Some(file) => calibration_of(file, case.profile.terminals.x.len())?,
         None => (**case.device).clone(),
     };
     let plant = case.plant()?;
@@ -171,6 +171,18 @@ fn virtual_board(asked: &Asked) -> Result<Target> {
     let profile = (*case.profile).clone();
     let plan = plan(&device, profile, (made.output, tuning), made.baud)?;
     Ok(Target { line: Box::new(running.clone()), plan, device, described, running: Some(running) })
+}
+
+/// The calibration of a file, for a board of so many terminals.
+fn calibration_of(file: &Path, terminals: usize) -> Result<DeviceCalibration> {
+    let device = DeviceCalibration::read(file)?;
+    let got = device.terminals.x.len();
+    ensure!(
+        got == terminals,
+        "{}: expected a calibration of {terminals} terminals, as the scene's board has, got {got}",
+        file.display()
+    );
+    Ok(device)
 }
 
 /// How the virtual board of a case is made.

@@ -9,7 +9,7 @@ use std::process::{Child, Command, Stdio};
 
 use hapticore_tests::tools::have;
 
-use crate::{command, expect};
+use crate::{command, expect, finish};
 
 fn start(args: &[&str]) -> Child {
     let folder = tempfile::tempdir().unwrap();
@@ -169,7 +169,12 @@ fn host_refuses_what_it_cannot_use() {
         (&["virtual:fig9", "--page", "--arm"], "cannot be used with"),
         (&["tcp:127.0.0.1:1", "--serve", "-", "--calibration", "none.toml"], "none.toml"),
     ];
-    for (args, expected) in cases {
+    // A calibration of four terminals, for a board of six.
+    let four = ["simulate", "minimal-sheet", "--set", "sheet.terminals=4", "--capture", "four.wav"];
+    finish(folder.path(), &four);
+    let of_four = ["virtual:hockey", "--check", "--calibration", "four.wav.calibration.toml"];
+    let four = [(&of_four[..], "expected a calibration of 6 terminals")];
+    for (args, expected) in cases.into_iter().chain(four) {
         let log = expect(folder.path(), &[&["host"], args].concat(), 2).stderr;
         let log = String::from_utf8_lossy(&log).into_owned();
         assert!(log.contains(expected), "{args:?}: {log}");
