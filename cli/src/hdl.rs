@@ -14,7 +14,7 @@ use hapticore_rtl::header;
 use serde_json::json;
 
 use crate::args::HdlArgs;
-use crate::output::Output;
+use crate::output::{Output, names};
 use crate::say;
 use hapticore_host::DeviceCalibration;
 use hapticore_host::Output as DriveOutput;
@@ -165,7 +165,7 @@ fn print_result(
             "top": top,
             "output": output.map(|output| output.to_string()),
             "converter": output.map(|output| output.dac.advice()),
-            "files": files,
+            "files": names(files),
         });
         say!("{}", serde_json::to_string_pretty(&told)?);
         return Ok(true);

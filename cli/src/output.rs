@@ -168,3 +168,8 @@ impl Frames {
 pub fn summary(record: &Record) -> String {
     serde_json::to_string_pretty(record).expect("a record is plain data") + "\n"
 }
+
+/// Names of files for JSON, which holds text only: what is none of a name is replaced.
+pub fn names(files: &[PathBuf]) -> Vec<String> {
+    files.iter().map(|file| file.display().to_string()).collect()
+}

@@ -16,7 +16,7 @@ use hapticore_tradeoff::errors::Quantity;
 use serde_json::json;
 
 use crate::args::{SweepArgs, SweepEngine, SweepPlaces, SweepStep};
-use crate::output::Output;
+use crate::output::{Output, names};
 use crate::print::{number, table};
 use crate::{console, progress, report, say};
 
@@ -153,7 +153,7 @@ fn collect(places: &Places) -> Result<bool> {
         let missing = &collected.missing;
         let failed: Vec<_> =
             failed.iter().map(|(line, error)| json!({"key": line.key, "error": error})).collect();
-        let told = json!({"plan": collected.plan, "points": collected.points.len(), "missing": missing, "failed": failed, "problems": collected.problems, "files": files});
+        let told = json!({"plan": collected.plan, "points": collected.points.len(), "missing": missing, "failed": failed, "problems": collected.problems, "files": names(&files)});
         say!("{}", serde_json::to_string_pretty(&told)?);
     } else {
         print(plan, &collected);

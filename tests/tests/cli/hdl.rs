@@ -144,3 +144,15 @@ fn a_board_is_made_for_the_terminals_and_pads_of_the_profile() {
         refuse(folder.path(), &["hdl", "--board", "ulx3s", "--profile", "mine.toml"], &[words]);
     }
 }
+
+#[test]
+fn a_folder_whose_name_is_no_text_is_named_in_json_too() {
+    use std::os::unix::ffi::OsStrExt;
+    let folder = tempfile::tempdir().unwrap();
+    let out = std::ffi::OsStr::from_bytes(b"caf\xe9");
+    let mut hdl = crate::command(folder.path(), &["hdl", "--profile", "small", "--json", "--out"]);
+    let output = hdl.arg(out).output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    let told: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert!(told["files"][0].as_str().is_some_and(|name| name.starts_with("caf")), "{told}");
+}
