@@ -110,6 +110,26 @@ pub struct Point {
     pub load_g: Option<f64>,
 }
 
+/// Refuses loads of a file that are in kilograms, which are below a gram, or in milligrams.
+///
+/// # Errors
+/// They are; the message names the unit.
+pub(super) fn check_grams(file: &str, loads: impl Iterator<Item = f64>) -> Result<()> {
+    let loads = loads.filter(|load| *load > 0.0);
+    let (least, most) = loads.fold((f64::INFINITY, 0.0), |(low, high), load| {
+        (f64::min(low, load), f64::max(high, load))
+    });
+    let unit = match most {
+        0.0 => return Ok(()),
+        ..LIGHTEST_G => "kilograms",
+        HEAVIEST_G.. => "milligrams",
+        _ => return Ok(()),
+    };
+    bail!(
+        "{file}: load_g: the loads are in {unit}: they run from {least} to {most}; expected grams, such as 20 and 100"
+    );
+}
+
 /// Whether a table is one of loads.
 pub fn is(table: &Table) -> bool {
     table.has("haptic_v_rms")
@@ -261,7 +281,7 @@ impl Loads {
             self.loads.iter().any(|load| load.haptic_v_rms > 0.0),
             "{file}: haptic_v_rms: all are 0: force_k is seen with voltage only; expected several, up to the highest that is used"
         );
-        self.check_unit()?;
+        check_grams(&self.file, self.loads.iter().filter_map(|load| load.load_g))?;
         if let Some(first) = self.loads[0].load_g {
             let alike = self
                 .loads
@@ -278,24 +298,6 @@ impl Loads {
             );
         }
         Ok(())
-    }
-
-    /// Loads in kilograms are below a gram.
-    fn check_unit(&self) -> Result<()> {
-        let loads = self.loads.iter().filter_map(|load| load.load_g).filter(|load| *load > 0.0);
-        let (least, most) = loads.fold((f64::INFINITY, 0.0), |(low, high), load| {
-            (f64::min(low, load), f64::max(high, load))
-        });
-        let unit = match most {
-            0.0 => return Ok(()),
-            ..LIGHTEST_G => "kilograms",
-            HEAVIEST_G.. => "milligrams",
-            _ => return Ok(()),
-        };
-        bail!(
-            "{}: load_g: the loads are in {unit}: they run from {least} to {most}; expected grams, such as 20 and 100",
-            self.file
-        );
     }
 
     fn check_squares(&self, squares: &[f64]) -> Result<()> {

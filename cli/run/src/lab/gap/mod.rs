@@ -22,6 +22,7 @@ use anyhow::{Context, Result, bail, ensure};
 use hapticore_scene::EPSILON_0;
 use serde::Serialize;
 
+use super::loads::check_grams;
 use super::table::{Row, Table};
 use crate::record::Provenance;
 use fit::{fitted, off_percent};
@@ -35,6 +36,9 @@ const FAR: f64 = 20.0;
 
 /// What a run may be off the others' fit before that is said, RMS, %.
 const RUN_PERCENT: f64 = 3.0;
+
+/// What a fit may leave of its own capacitances before that is said, RMS, %.
+const LEFT_PERCENT: f64 = 5.0;
 
 /// A reading.
 #[derive(Debug, Clone, Copy)]
@@ -121,6 +125,9 @@ impl Data {
         ensure!(grams != newtons, "{file}:1: expected a column load_g or load_n");
         table.only(&["load_g", "load_n", "capacitance_pf", "run"])?;
         let load = table.column(if grams { "load_g" } else { "load_n" })?;
+        if grams {
+            check_grams(&file, table.rows().iter().map(|row| row.at(load)))?;
+        }
         let newton = if grams { 1e-3 * setup.device.gravity_m_s2 } else { 1.0 };
         let (picofarad, run) = (table.column("capacitance_pf")?, table.column("run").ok());
         let reading = |row: &Row| {
@@ -168,6 +175,10 @@ impl Data {
                  product alone; measure at smaller loads, too"
             )
         });
+        let rms_percent = off_percent(&found, &self.readings, insulator_m);
+        let poor = (rms_percent > LEFT_PERCENT).then(|| {
+            format!("one patch leaves {rms_percent:.1} % RMS of the capacitances: it does not describe this pad")
+        });
         let differ = runs.iter().filter(|of| of.rms_percent > RUN_PERCENT).map(|of| {
             format!(
                 "run {} is {:.1} % RMS off what the others predict: runs differ by more than {RUN_PERCENT} %",
@@ -181,8 +192,8 @@ impl Data {
             rest_um: 1e6 * (found.rest_m + insulator_m),
             contact_pa: found.contact_pa,
             contact_decay_um: 1e6 * found.contact_decay_m,
-            rms_percent: off_percent(&found, &self.readings, insulator_m),
-            warnings: differ.chain(constant).collect(),
+            rms_percent,
+            warnings: differ.chain(poor).chain(constant).collect(),
             runs,
             insulator_um: 1e6 * insulator_m,
             provenance: Provenance::new(),

@@ -80,6 +80,17 @@ fn a_run_that_differs_is_named() {
 }
 
 #[test]
+fn a_pad_that_one_patch_does_not_describe_is_warned_of() {
+    let row = |n: i32| format!("{},{}\n", 20 * n, if n % 2 == 0 { 300 } else { 240 } + 10 * n);
+    let csv = (1..=10).fold(String::from("load_g,capacitance_pf\n"), |csv, n| csv + &row(n));
+    let found = Data::of(&[("c.csv".into(), csv)]).unwrap().unwrap().fit().unwrap();
+    assert!(
+        found.warnings.iter().any(|warning| warning.contains("does not describe")),
+        "{found:?}"
+    );
+}
+
+#[test]
 fn what_is_no_capacitance_under_a_load_is_refused() {
     let refused = |csv: &str| {
         let data = Data::of(&[("c.csv".into(), csv.into())]);
@@ -92,6 +103,7 @@ fn what_is_no_capacitance_under_a_load_is_refused() {
         ("load_n,capacitance_pf\n1,300\n".into(), "6 readings"),
         (format!("load_n,capacitance_pf\n{rows}7,3000\n"), "c.csv:8"),
         (format!("load_n,capacitance_pf\n{rows}0,300\n"), "above 0"),
+        (format!("load_g,capacitance_pf\n{}", rows.replace(",3", "e-2,3")), "in kilograms"),
         ("load_n,capacitance_pf\n1,6\n2,5\n3,4\n4,3\n5,2\n6,1\n".into(), "rises with the load"),
     ] {
         let error = refused(&csv);
