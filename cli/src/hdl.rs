@@ -18,6 +18,7 @@ use crate::output::{Output, names};
 use crate::say;
 use hapticore_host::DeviceCalibration;
 use hapticore_host::Output as DriveOutput;
+use hapticore_host::Wave;
 use hapticore_run::inputs;
 
 /// The profile where neither it nor a board is named.
@@ -41,7 +42,7 @@ pub fn run(args: &HdlArgs) -> Result<bool> {
         Some(law) => with_controller(profile, law)?,
         None => profile,
     };
-    let drive = args.dac.as_deref().map(|dac| drive(&profile, dac, args)).transpose()?;
+    let drive = args.dac.as_deref().map(|dac| drive(&profile, dac, args, board)).transpose()?;
     let printed = board.map(|board| print_board(board, &profile, drive, args.baud)).transpose()?;
     let options = format!("--dac {} --wave {}", args.dac.as_deref().unwrap_or(""), args.wave);
     let pins = drive.filter(|_| board.is_none());
@@ -88,8 +89,10 @@ fn with_controller(profile: Profile, name: &str) -> Result<Profile> {
 }
 
 /// What drives the pads of a profile's force loop.
-fn drive(profile: &Profile, dac: &str, args: &HdlArgs) -> Result<Drive> {
-    let (wave, converter) = (args.wave.parse().context("--wave")?, dac.parse().context("--dac")?);
+fn drive(profile: &Profile, dac: &str, args: &HdlArgs, board: Option<Target>) -> Result<Drive> {
+    let clock_hz = board.map_or(args.clock_hz, Target::clock_hz);
+    let wave = Wave::on_board(&args.wave, profile.frame_clocks(), clock_hz).context("--wave")?;
+    let converter = dac.parse().context("--dac")?;
     ensure!(profile.control.is_some(), "--dac: expected a force controller too: --control LAW");
     Ok(Drive { wave, converter, full_scale_v: args.full_scale_v })
 }

@@ -7,7 +7,7 @@ use crate::error::SceneError;
 use crate::format::{Limits, Table};
 use crate::terminals::{VOLTAGES, terminals_mm};
 use crate::timing::Timing;
-use crate::wave::HapticWave;
+use crate::wave::{self, HapticWave};
 
 /// Permittivity of free space, F/m.
 pub const EPSILON_0: f64 = 8.854_187_812_8e-12;
@@ -49,6 +49,8 @@ pub struct Device {
     pub haptic_hz: f64,
     /// How the haptic voltage goes on in time.
     pub haptic_wave: HapticWave,
+    /// Time constant with which the supply recharges a pad in work, s; 0 without a supply.
+    pub(crate) recharge_s: f64,
     /// ADC sample rate, Hz: the scene's carrier times the profile's samples per period, rounded.
     pub sample_rate_hz: f64,
     /// Size of the sheet along x, mm.
@@ -80,7 +82,8 @@ impl Device {
         let samples_per_period = timing.samples_per_period;
         let sample_rate_hz = self.carrier_hz * samples_per_period.round();
         let carrier_hz = sample_rate_hz / samples_per_period;
-        let haptic_wave = self.haptic_wave.in_slots_of(timing.slot_samples as f64 / sample_rate_hz);
+        let slot_s = timing.slot_samples as f64 / sample_rate_hz;
+        let haptic_wave = self.haptic_wave.in_slots_of(slot_s, self.recharge_s);
         let carrier_rad_s = TAU * carrier_hz;
         Device { sample_rate_hz, carrier_hz, carrier_rad_s, haptic_wave, ..self }
     }
@@ -121,6 +124,7 @@ impl Device {
             carrier_rad_s: TAU * carrier_hz,
             haptic_hz: number("carrier", "haptic_hz", Limits::within(1e-3, 1e8), 1000.0)?,
             haptic_wave: HapticWave::read(root)?,
+            recharge_s: wave::recharge_s(root, pad_area_m2)?,
             sample_rate_hz: f64::NAN, // the profile's, known when a plant is built
             width_mm: number("device", "width_mm", smallest, 860.0)?,
             height_mm: number("device", "height_mm", smallest, 500.0)?,

@@ -7,6 +7,7 @@ use crate::effects::Spec;
 use crate::error::SceneError;
 use crate::format::Table;
 use crate::pad::PadPlan;
+use crate::wave::{HapticWave, LEAST_TAUS};
 
 /// Levels of `[gap]` that follow a drive immediately.
 const AT_REST: [&str; 2] = ["static", "hysteresis"];
@@ -18,8 +19,10 @@ pub(crate) fn of_scene(
     control: Option<&ControlPlan>,
     pads: &[PadPlan],
 ) -> Result<Vec<String>, SceneError> {
-    let Some(control) = control else { return Ok(Vec::new()) };
+    let turns = turns_too_often(device);
+    let Some(control) = control else { return Ok(turns.into_iter().collect()) };
     let all = [
+        turns,
         gap_at_rest(effects),
         no_friction(effects),
         open_law(control),
@@ -27,6 +30,19 @@ pub(crate) fn of_scene(
         unreadable_direction(root, control, pads)?,
     ];
     Ok(all.into_iter().flatten().collect())
+}
+
+/// A square wave whose turns the supply has no time for.
+fn turns_too_often(device: &Device) -> Option<String> {
+    let HapticWave::Square { turn_s: Some(turn_s) } = device.haptic_wave else { return None };
+    let least_s = LEAST_TAUS * device.recharge_s;
+    (turn_s < least_s).then(|| {
+        format!(
+            "carrier.haptic_turn_s = {turn_s}: behind [supply] a pad is recharged with a time constant of {:.0} µs, so that \
+             turns take much of its force; take {least_s:.4} at least, or leave it out",
+            1e6 * device.recharge_s
+        )
+    })
 }
 
 fn has(effects: &[Spec], name: &str) -> bool {

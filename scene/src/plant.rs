@@ -223,6 +223,13 @@ impl Plant {
         Effects::build(&self.case.effects, &self.setting())
     }
 
+    /// The effects of the case without one of them, before anything has happened.
+    pub(crate) fn effects_but(&self, name: &str) -> Effects {
+        let others: Vec<_> =
+            self.case.effects.iter().filter(|effect| effect.name != name).cloned().collect();
+        Effects::build(&others, &self.setting())
+    }
+
     fn setting(&self) -> Setting<'_> {
         Setting { device: &self.device, timing: &self.timing, seed: self.seed, case: self.index }
     }

@@ -160,6 +160,8 @@ pub struct ForcePoint {
     pub load_g: f64,
     /// Haptic voltage at the pad, V rms.
     pub haptic_v_rms: f64,
+    /// That of the source that gives it, V rms: more, where `[supply]` lies between.
+    pub source_v_rms: f64,
     /// Capacitance between pad and sheet, pF.
     pub capacitance_pf: f64,
     /// Haptic force, N.

@@ -5,7 +5,8 @@
 //! [carrier]
 //! haptic_wave = "square"          # "sine" (default) | "dc" | "square"
 //! haptic_hz = 1000                # of the sine
-//! haptic_turn_s = 0.0017          # a square's polarity turns so often, 1 µs at least, from time 0 on; with every slot where absent
+//! haptic_turn_s = 0.0017          # a square's polarity turns so often, 1 µs at least, from time 0 on; where absent with every
+//!                                 # slot, behind [supply] with as many as last 20 times as long as it recharges a pad
 //! ```
 //!
 //! A sine and a square have no mean, so that no charge gathers in the insulators (`effects/charge`);
@@ -14,6 +15,28 @@
 use crate::error::SceneError;
 use crate::format::{Limits, Table};
 use crate::stimulus::{Moment, next_multiple};
+
+/// A turn comes so many time constants of the supply after the one before, where a scene does not say when: it
+/// then costs a tenth of the mean square.
+pub(crate) const LEAST_TAUS: f64 = 20.0;
+
+/// Capacitance of a pad in work for each area, F/m²: 600 pF of the paper's pad (docs/physics.md §3, 400 V).
+const WORKING_F_PER_M2: f64 = 0.85e-6;
+
+/// What lies between the source and a pad: the limiting resistor, Ω, and the capacitance to ground, F.
+pub(crate) fn limiter(supply: &Table) -> Result<[f64; 2], SceneError> {
+    Ok([
+        1e3 * supply.number_or("limiting_kohm", Limits::within(0.0, 1e6), 300.0)?,
+        1e-12 * supply.number_or("parasitic_pf", Limits::within(0.0, 1e6), 100.0)?,
+    ])
+}
+
+/// The time constant with which `[supply]` recharges a pad in work, s: 210 µs of the paper's; 0 without the table.
+pub(crate) fn recharge_s(root: &Table, pad_area_m2: f64) -> Result<f64, SceneError> {
+    let Some(supply) = root.table("supply")? else { return Ok(0.0) };
+    let [limiting_ohm, parasitic_f] = limiter(supply)?;
+    Ok(limiting_ohm * (WORKING_F_PER_M2 * pad_area_m2 + parasitic_f))
+}
 
 /// How the haptic voltage goes on in time.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,7 +48,7 @@ pub enum HapticWave {
     /// A voltage that turns its polarity.
     Square {
         /// From one turn to the next, s; none, until a plant is built for a core, where it turns
-        /// with every slot.
+        /// with every slot, or less often behind a supply.
         turn_s: Option<f64>,
     },
 }
@@ -55,11 +78,12 @@ impl HapticWave {
         }
     }
 
-    /// The same under a core whose slots last so long.
-    pub(crate) fn in_slots_of(self, slot_s: f64) -> HapticWave {
+    /// The same under a core whose slots last so long, behind a supply that recharges a pad with a time constant.
+    pub(crate) fn in_slots_of(self, slot_s: f64, recharge_s: f64) -> HapticWave {
         match self {
             HapticWave::Square { turn_s } => {
-                HapticWave::Square { turn_s: Some(turn_s.unwrap_or(slot_s)) }
+                let slots = (LEAST_TAUS * recharge_s / slot_s).ceil().max(1.0);
+                HapticWave::Square { turn_s: Some(turn_s.unwrap_or(slots * slot_s)) }
             }
             same => same,
         }
@@ -122,8 +146,22 @@ mod tests {
     fn a_square_without_a_time_turns_with_every_slot() {
         let square = HapticWave::Square { turn_s: None };
         assert_eq!(square.next_turn_s(3.0), f64::INFINITY);
-        assert_eq!(square.in_slots_of(0.5).next_turn_s(3.0), 3.5);
+        assert_eq!(square.in_slots_of(0.5, 0.0).next_turn_s(3.0), 3.5);
         let own = HapticWave::Square { turn_s: Some(2.0) };
-        assert_eq!(own.in_slots_of(0.5), own);
+        assert_eq!(own.in_slots_of(0.5, 1.0), own);
+    }
+
+    #[test]
+    fn a_square_behind_a_supply_turns_every_20_time_constants_or_less_often() {
+        for (slot_s, recharge_s, slots) in
+            [(1e-3, 210e-6, 5.0), (250e-6, 210e-6, 17.0), (0.5, 1e-3, 1.0)]
+        {
+            let HapticWave::Square { turn_s } =
+                HapticWave::Square { turn_s: None }.in_slots_of(slot_s, recharge_s)
+            else {
+                panic!("a square stays one")
+            };
+            assert_eq!(turn_s, Some(slots * slot_s));
+        }
     }
 }

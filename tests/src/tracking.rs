@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How a force loop follows its target: scene `fig9` at fidelity `fixed` under other laws and loads.
+//! How a force loop follows its target: scene `fig9` with an ideal amplifier at fidelity `fixed` under other laws and
+//! loads.
 
 use std::sync::Arc;
 
@@ -51,7 +52,7 @@ pub const LAWS: [Law; 7] = [
             ("force", "table"),
         ],
     },
-    Law { name: "inverse", set: &[("law", "inverse")] },
+    Law { name: "inverse, no trim", set: &[("law", "inverse"), ("trim_s", "0")] },
     Law {
         name: "inverse, force table",
         set: &[("law", "inverse"), ("force", "table"), ("curve_factor", "1.2")],
@@ -176,7 +177,9 @@ pub fn follow_integral(division: &Division, gains: [f64; 2], target: &str) -> Ve
 /// `fig9` in other slots; further pads have a target of zero.
 fn scene(division: &Division, control: &[(&str, &str)], load_g: f64) -> Arc<Scene> {
     let text = |(key, value): &(&str, &str)| (format!("control.{key}"), quoted(value));
-    let mut set: Vec<_> = control.iter().map(text).collect();
+    let mut set = vec![("supply".into(), "false".into())];
+    let estimate = ("force", "eq8");
+    set.extend(std::iter::once(&estimate).chain(control).map(text));
     set.push(("pad.0.load_g".into(), load_g.to_string()));
     set.push(("control.nominal_load_g".into(), load_g.to_string()));
     let others: String = (1..division.pads)

@@ -257,7 +257,12 @@ fn output(asked: &Asked, profile: &Profile) -> Result<Option<Output>> {
     };
     Ok(Some(Output {
         dac: dac.parse().context("--dac")?,
-        wave: asked.wave.as_deref().unwrap_or("square").parse().context("--wave")?,
+        wave: Wave::on_board(
+            asked.wave.as_deref().unwrap_or("square"),
+            profile.frame_clocks(),
+            CLOCK_HZ,
+        )
+        .context("--wave")?,
         full_scale_v: asked.full_scale_v.unwrap_or(Output::FULL_SCALE_V),
         clock_hz: CLOCK_HZ,
     }))

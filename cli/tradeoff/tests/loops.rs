@@ -15,8 +15,9 @@ fn scene(name: &str) -> (Arc<Scene>, Profile) {
     let rounded = inputs::scene(name, &[]).expect("bundled");
     let mut finer = unrounded(&rounded.cases[case_of(&rounded)]).expect("a document");
     if rounded.cases[case_of(&rounded)].control.is_some() {
-        // At its limit a drive is a word of the curve, whatever the others are.
+        // At its limit a drive is a word of the curve, whatever the others are; a trim takes their errors away.
         finer.push(("control.curve_factor".into(), "1.5".into()));
+        finer.push(("control.trim_s".into(), "0".into()));
     }
     let scene = inputs::scene(name, &finer).expect("bundled");
     let profile = Profile::bundled("standard").expect("bundled");

@@ -206,12 +206,40 @@ fn refused<T>(expected: impl Into<String>, got: &str) -> Result<T, NameError> {
     Err(NameError { expected: expected.into(), got: got.into() })
 }
 
-/// `dc`, `square`, `square:SLOTS` or `sine:CLOCKS`, slots from turn to turn or clocks of a period.
+impl Wave {
+    /// The least time from turn to turn of a square without a number of slots, µs: 20 time constants of a pad of 600 pF and
+    /// a cable of 100 pF behind 300 kΩ, so that turns take a tenth of the force (docs/physics.md §7).
+    pub const LEAST_TURN_US: u64 = 4200;
+
+    /// A wave by its name on a board whose frames last so many clocks; `square` turns no more often than every
+    /// [`Wave::LEAST_TURN_US`].
+    ///
+    /// ```
+    /// use hapticore_protocol::output::Wave;
+    ///
+    /// let fast = Wave::on_board("square", 25_000, 25_000_000)?; // frames of 1 ms
+    /// assert_eq!(fast, Wave::Square { turn_slots: 5 });
+    /// assert_eq!(Wave::on_board("square:2", 25_000, 25_000_000)?, Wave::Square { turn_slots: 2 });
+    /// # Ok::<(), hapticore_protocol::output::NameError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// A name of no wave.
+    pub fn on_board(text: &str, frame_clocks: u64, clock_hz: u64) -> Result<Wave, NameError> {
+        if text != "square" {
+            return text.parse();
+        }
+        let least_clocks = Wave::LEAST_TURN_US * clock_hz / 1_000_000;
+        Ok(Wave::Square { turn_slots: least_clocks.div_ceil(frame_clocks).clamp(1, MOST_SLOTS) })
+    }
+}
+
+/// `dc`, `square:SLOTS` or `sine:CLOCKS`, slots from turn to turn or clocks of a period.
 ///
 /// ```
 /// use hapticore_protocol::output::Wave;
 ///
-/// assert_eq!("square".parse(), Ok(Wave::Square { turn_slots: 1 }));
+/// assert_eq!("square:3".parse(), Ok(Wave::Square { turn_slots: 3 }));
 /// assert_eq!("sine:125000".parse(), Ok(Wave::Sine { points: 64, point_clocks: 1953 }));
 /// ```
 impl FromStr for Wave {
@@ -231,13 +259,12 @@ impl FromStr for Wave {
         };
         match (name, number) {
             ("dc", None) => Ok(Wave::Dc),
-            ("square", None) => Ok(Wave::Square { turn_slots: 1 }),
             ("square", Some(_)) => Ok(Wave::Square { turn_slots: within(1, MOST_SLOTS)? }),
             ("sine", _) => {
                 let clocks: u64 = within(LEAST_PERIOD, MOST_PERIOD)?;
                 Ok(Wave::Sine { points: POINTS, point_clocks: (clocks + POINTS / 2) / POINTS })
             }
-            _ => refused("dc, square, square:SLOTS or sine:CLOCKS", text),
+            _ => refused("dc, square:SLOTS or sine:CLOCKS", text),
         }
     }
 }

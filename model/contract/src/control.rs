@@ -8,13 +8,18 @@
 //! open           d = D(s)
 //! proportional   d = D(s) + c,          c += α·(K·(F_t − F) − c)          (paper, Fig. 8b: α = 1)
 //! integral       d = D(s) + K·e + c,    c += K_i·e,   e = √F_t − √F
-//! inverse        d = min(√(F_t / (k·C²·G)), D(s))
+//! inverse        d = B + c·B,           c += K_i·e,   B = min(√(F_t / (k·C²·G)), D(s)),   |e| ≤ 2^-6, |c| ≤ ½
 //! ```
 //!
 //! D is a curve that the host writes: the paper's feed-forward K·√F (eq. 9), a measured steady
 //! curve, or, with the inverse law, the limit that keeps a pad of small capacitance from
-//! overshooting as it is pulled in. G is the haptic mean square at full drive. Against a
-//! limit that holds the drive c goes as far as the limit lets it: nothing winds up.
+//! overshooting as it is pulled in. G is the haptic mean square at full drive, at the pad. Against a
+//! limit that holds the drive c goes as far as the limit lets it, a trim not at all: nothing winds up.
+//!
+//! With the inverse law c is a slow trim: the share by which the drive is more, or less, than device and supply
+//! were calibrated for, until the force that is read is the target. Its error is that of the target before, whose drive
+//! the force is of. It is limited, so that the milliseconds
+//! in which a pad is pulled in move it little, and it stays as it is while the target is zero.
 
 use hapticore_hdl::format::Format;
 use serde::{Deserialize, Serialize};
@@ -29,7 +34,8 @@ pub enum Law {
     Proportional,
     /// The curve, a multiple and an integral of the error of the force's root.
     Integral,
-    /// The voltage that gives the target at the capacitance just measured, limited by the curve.
+    /// The voltage that gives the target at the capacitance just measured, limited by the curve, and trimmed to
+    /// the force that is read.
     Inverse,
 }
 
@@ -80,6 +86,11 @@ impl Control {
     /// The time after which a host is missed where a profile does not say, ms.
     pub const SILENT_MS: u64 = 100;
 
+    /// The inverse law's trim counts an error of roots to ±2^-[`Control::TRIM_ERROR_BITS`] of full scale.
+    pub const TRIM_ERROR_BITS: u8 = 6;
+    /// The inverse law's trim is ±2^-[`Control::TRIM_BITS`] of the drive at most.
+    pub const TRIM_BITS: u8 = 1;
+
     /// Fractional bits by which a target is moved down to be below one; even, as its root is then
     /// moved by half of it.
     pub fn target_shift(&self) -> i8 {
@@ -109,7 +120,7 @@ pub struct Tuning {
     pub full_drive: f64,
     /// K: drive per N (proportional) or per root (integral).
     pub proportional: f64,
-    /// α (proportional) or K_i, drive per root and frame (integral).
+    /// α (proportional); K_i, drive per root and frame (integral), or the trim's step per root (inverse).
     pub correction: f64,
     /// The largest drive word.
     pub rail: f64,

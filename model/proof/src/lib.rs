@@ -49,6 +49,8 @@ impl Proof {
 
 /// Rounds after which words that still grow are widened: what starts at reset has filled by then.
 const FILLED: u64 = 2;
+/// Bits by which a range is widened at a time.
+const STRIDE: u32 = 12;
 
 /// The prover stops after this number of rounds if the proof has not closed.
 const MOST_ROUNDS: u64 = 8;
@@ -210,10 +212,23 @@ impl Edit<Range> for Widen<'_> {
     }
 }
 
-/// Both ranges joined, and on a side where `after` exceeds `before` the whole format.
+/// Both ranges joined, and on a side where `after` exceeds `before` up to the next multiple of [`STRIDE`] bits, so that a
+/// word that grows slowly and then saturates does not fill a register that holds wider words, too.
 fn widened(format: Format, before: Option<&Range>, after: Range) -> Range {
     let before = *before.expect("a state has the words that it had");
-    let low = if after.low < before.low { format.min_code() } else { before.low };
-    let high = if after.high > before.high { format.max_code() } else { before.high };
+    let most = |code: i128| (1 << (bits(code).div_ceil(STRIDE) * STRIDE).min(126)) - 1;
+    let low = match after.low < before.low {
+        true => format.min_code().max(-most(after.low) - 1),
+        false => before.low,
+    };
+    let high = match after.high > before.high {
+        true => format.max_code().min(most(after.high)),
+        false => before.high,
+    };
     Range { low, high }
+}
+
+/// Bits of a code's magnitude.
+fn bits(code: i128) -> u32 {
+    i128::BITS - code.unsigned_abs().leading_zeros()
 }

@@ -6,11 +6,13 @@
 //! open           d = D
 //! proportional   d = D + c,         c += α·(K·(F_t − F) − c)          (paper, Fig. 8b: α = 1)
 //! integral       d = D + K·e + c,   c += K_i·e,   e = √F_t − √F       (roots over that of the largest target)
-//! inverse        d = min(√(F_t/G / (k·C²)), D)                        (docs/physics.md §6)
+//! inverse        d = B + c·B,  c += K_i·e,  B = min(√(F_t/G / (k·C²)), D)     (docs/physics.md §6)
 //! ```
 //!
 //! The drive is held within 0 … rail, then within slew of the pad's last, at most the rail. c stays as it is while
-//! estimates are invalid; against a limit that holds the drive it goes as far as drive − (D + K·e), and not back. A
+//! estimates are invalid; against a limit that holds the drive it goes as far as drive − (D + K·e), and not back. The
+//! inverse law's c, a trim of ½ at most, stays as it is against a limit and for a target of zero; its e,
+//! of the target of the frame before, is 2^-6 at most. A
 //! fault takes every drive to zero immediately, and each pad then begins at zero, with c at zero. A lifted pad begins
 //! in the same way, and rises no faster than a contact may until its drive is what the law wants.
 
@@ -38,6 +40,8 @@ struct Pad {
     invalid: u64,
     drive: f64,
     correction: f64,
+    /// Root of the target of its last valid frame.
+    asked: f64,
     /// It has been lifted, and its drive has not been what its law wants since.
     rises: bool,
 }
@@ -99,7 +103,7 @@ impl Controller {
         let invalid = if prompt.invalid { pad.invalid + 1 } else { 0 };
         self.faults.sensor |= invalid >= self.control.invalid_frames;
         self.faults.force |= !prompt.invalid && prompt.force_n > self.tuning.force_cap;
-        let (correction, wanted) = self.wanted(prompt, target_n, pad.correction);
+        let (correction, wanted) = self.wanted(prompt, target_n, pad);
         let within = wanted.min(self.tuning.rail).max(0.0);
         let (low, high) = (wanted < 0.0, wanted > self.tuning.rail);
         let Tuning { rail, slew, .. } = self.tuning;
@@ -109,7 +113,10 @@ impl Controller {
         let off = self.faults.any();
         let drive = if off || prompt.lifted { 0.0 } else { to.min(last + up).max(last - slew) };
         let rises = prompt.lifted || pad.rises && (prompt.invalid || drive < within);
-        let limit = drive - (wanted - correction);
+        let limit = match self.control.law {
+            Law::Inverse => pad.correction,
+            _ => drive - (wanted - correction),
+        };
         let correction = if prompt.invalid {
             pad.correction
         } else if wanted > drive && correction >= pad.correction {
@@ -120,7 +127,12 @@ impl Controller {
             correction
         };
         let correction = if prompt.lifted { 0.0 } else { correction };
-        self.pads[prompt.pad] = Pad { invalid, drive, correction, rises };
+        let asked = match prompt {
+            Prompt { lifted: true, .. } => 0.0,
+            Prompt { invalid: true, .. } => pad.asked,
+            _ => self.root(target_n),
+        };
+        self.pads[prompt.pad] = Pad { invalid, drive, correction, asked, rises };
         if off {
             self.clear();
         }
@@ -142,8 +154,18 @@ impl Controller {
         curve[cell] + (curve[cell + 1] - curve[cell]) * (at - cell as f64)
     }
 
+    /// The inverse law's trim after this frame.
+    fn trim(&self, pad: Pad, force_n: f64) -> f64 {
+        let power = |bits: u8| 0.5f64.powi(i32::from(bits));
+        let [most, most_error] = [Control::TRIM_BITS, Control::TRIM_ERROR_BITS].map(power);
+        let error = if pad.asked > 0.0 { pad.asked - self.root(force_n) } else { 0.0 };
+        let step = self.tuning.correction * error.clamp(-most_error, most_error);
+        (pad.correction + step).clamp(-most, most)
+    }
+
     /// The correction after this frame, and the drive without limits.
-    fn wanted(&self, prompt: &Prompt, target_n: f64, correction: f64) -> (f64, f64) {
+    fn wanted(&self, prompt: &Prompt, target_n: f64, pad: Pad) -> (f64, f64) {
+        let correction = pad.correction;
         let Tuning { proportional, correction: gain, full_drive, .. } = self.tuning;
         let root = self.root(target_n);
         let curve = self.curve(root);
@@ -162,7 +184,9 @@ impl Controller {
             Law::Inverse => {
                 let stiffness = prompt.force_gain * prompt.capacitance_pf.powi(2);
                 let inverse = (target_n * full_drive / stiffness).sqrt();
-                (0.0, if inverse < curve { inverse } else { curve })
+                let base = if inverse < curve { inverse } else { curve };
+                let correction = self.trim(pad, prompt.force_n);
+                (correction, base + correction * base)
             }
         }
     }

@@ -24,7 +24,7 @@ use super::spec::{Level, Spec};
 use crate::device::{Device, EPSILON_0};
 use crate::error::SceneError;
 use crate::format::{Limits, Table};
-use crate::wave::HapticWave;
+use crate::wave::{HapticWave, limiter};
 
 pub(super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneError> {
     let Some(table) = root.table("supply")? else { return Ok(None) };
@@ -33,10 +33,11 @@ pub(super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneE
         let message = "expected 0 with carrier.haptic_wave = \"square\", whose turns would ring";
         return Err(table.error("transformer_h", message));
     }
+    let [limiting_ohm, parasitic_f] = limiter(table)?;
     let supply = Supply {
-        limiting_ohm: 1e3 * table.number_or("limiting_kohm", Limits::within(0.0, 1e6), 300.0)?,
+        limiting_ohm,
         transformer_h,
-        parasitic_f: 1e-12 * table.number_or("parasitic_pf", Limits::within(0.0, 1e6), 100.0)?,
+        parasitic_f,
         rad_s: TAU * device.haptic_hz,
         wave: device.haptic_wave,
     };

@@ -70,7 +70,7 @@ impl Plant {
     }
 
     /// A friction calibration, as for the paper's Fig. 6: one pad alone in the middle of the sheet,
-    /// under each load at each voltage. Eq. 8's k is fitted to it; without `[gap]` every point has
+    /// under each load at each voltage, V rms at the pad. Eq. 8's k is fitted to it; without `[gap]` every point has
     /// `force_k` itself.
     ///
     /// ```
@@ -93,13 +93,17 @@ impl Plant {
         let part = (self.parts() > 1).then(|| self.parts() - 1);
         let still = settings
             .map(|(load, volt)| Pad { part, ..resting([0.0, 0.0], load, volt, &self.device) });
+        let supply = self.settle(std::iter::once(resting([0.0, 0.0], 0.0, 0.0, &self.device)));
+        let supply = supply.last().and_then(|pad| pad.supply);
+        let share = |pad: &Pad| supply.map_or(1.0, |supply| supply.share(pad.capacitance_f));
         let point = |pad: Pad| ForcePoint {
             load_g: pad.load_g,
             haptic_v_rms: pad.haptic_v_rms,
+            source_v_rms: pad.haptic_v_rms / share(&pad),
             capacitance_pf: pad.capacitance_f * 1e12,
             force_n: pad.haptic_force_n(&self.device),
         };
-        self.settle(still).map(point).collect()
+        settled(self.effects_but("supply"), still).map(point).collect()
     }
 
     /// The least capacitance that any pad, or any part of a split one, has while it touches the sheet without a haptic
@@ -147,10 +151,14 @@ impl Plant {
 
     /// Lets effects of their own act on each pad, so that a calibration leaves the run as it was.
     fn settle(&self, pads: impl Iterator<Item = Pad>) -> impl Iterator<Item = Pad> {
-        let mut effects = self.fresh_effects();
-        pads.map(move |mut pad| {
-            effects.on_resting_pad(&mut pad);
-            pad
-        })
+        settled(self.fresh_effects(), pads)
     }
+}
+
+/// Pads on which effects have acted.
+fn settled(mut effects: Effects, pads: impl Iterator<Item = Pad>) -> impl Iterator<Item = Pad> {
+    pads.map(move |mut pad| {
+        effects.on_resting_pad(&mut pad);
+        pad
+    })
 }

@@ -128,6 +128,9 @@ impl Trial {
 fn scene((law, gains): (&str, [f64; 2]), target: Target, rail_v: f64) -> Scene {
     let set = [
         ("case", "[]".to_string()),
+        ("supply", "false".to_string()),
+        ("control.force", "eq8".to_string()),
+        ("control.trim_s", "0".to_string()),
         ("criterion", "[]".to_string()),
         ("control.law", law.to_string()),
         ("control.rail_v", rail_v.to_string()),

@@ -3,6 +3,11 @@
 
 use std::fs;
 
+use hapticore_contract::profile::Profile;
+use hapticore_host::Wave;
+use hapticore_run::inputs;
+use hapticore_scene::{HapticWave, Plant, Scene, Timing};
+
 use crate::{expect, refuse};
 
 const LOOP: [&str; 5] = ["hdl", "--profile", "fast", "--control", "inverse"];
@@ -30,6 +35,38 @@ fn each_converter_has_its_pins_and_no_others() {
             assert_eq!(port, n == own, "{dac}: {pin}");
         }
     }
+}
+
+/// As often as a scene's wave turns behind the paper's resistor, in frames of 1 ms and of 6.8 ms.
+#[test]
+fn a_square_turns_every_20_time_constants_of_a_pad_by_default() {
+    let folder = tempfile::tempdir().unwrap();
+    for (profile, slots) in [("fast", 5), ("standard", 1)] {
+        let args = [
+            "hdl",
+            "--profile",
+            profile,
+            "--control",
+            "inverse",
+            "--dac",
+            "ad5664",
+            "--out",
+            profile,
+        ];
+        let output = expect(folder.path(), &args, 0);
+        let printed = String::from_utf8_lossy(&output.stdout);
+        assert!(printed.contains(&format!("square:{slots}")), "{printed}");
+    }
+    let behind = "title = \"t\"\n[[pad]]\nposition_mm = [0, 0]\n[supply]\n[carrier]\nhaptic_wave = \"square\"\n";
+    let scene = Scene::parse(behind, "t.toml", &[]).expect("a scene");
+    let timing =
+        Timing { pads: 4, slot_samples: 250, ..inputs::timing(&Profile::bundled("fast").unwrap()) };
+    let plant = Plant::new(&scene, 0, &timing).expect("a plant");
+    let least_s = 1e-6 * Wave::LEAST_TURN_US as f64;
+    let HapticWave::Square { turn_s: Some(turn_s) } = plant.device().haptic_wave else {
+        panic!("a square")
+    };
+    assert!((turn_s - least_s) / 250e-6 < 1.0 && turn_s >= least_s, "{turn_s}");
 }
 
 #[test]

@@ -42,11 +42,14 @@ const HELD: usize = 4;
 /// Tables of a scene that decide its forces.
 const TABLES: [&str; 6] = ["device", "gap", "friction", "supply", "temperature", "calibration"];
 
+/// Keys of `[carrier]` that decide how much of the voltage a supply lets through.
+const WAVE: [&str; 3] = ["haptic_hz", "haptic_wave", "haptic_turn_s"];
+
 /// A simulated device on the bench.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bench {
     tables: Table,
-    haptic_hz: Option<Value>,
+    wave: Table,
     /// With a controller a gap moves unless its level says otherwise.
     is_controlled: bool,
 }
@@ -58,11 +61,13 @@ impl Bench {
     /// A text that is no TOML.
     pub fn of(scene: &str) -> Result<Option<Bench>> {
         let mut scene: Table = toml::from_str(scene).context("the scene of a case")?;
-        let haptic_hz = scene.get("carrier").and_then(|carrier| carrier.get("haptic_hz")).cloned();
+        let carrier = scene.get("carrier").and_then(Value::as_table);
+        let of_wave = |key: &&str| Some((key.to_string(), carrier?.get(*key)?.clone()));
+        let wave: Table = WAVE.iter().filter_map(of_wave).collect();
         let tables: Table = TABLES.iter().filter_map(|key| scene.remove_entry(*key)).collect();
         let is_controlled = scene.contains_key("control");
         let has_gap = tables.contains_key("gap");
-        Ok(has_gap.then_some(Bench { tables, haptic_hz, is_controlled }))
+        Ok(has_gap.then_some(Bench { tables, wave, is_controlled }))
     }
 
     /// Whether the gap has no time of its own.
@@ -96,8 +101,7 @@ impl Bench {
             "friction".into(),
             Table::from_iter([("rung".into(), "coulomb".into())]).into(),
         );
-        let hertz = self.haptic_hz.iter().map(|hertz| ("haptic_hz".into(), hertz.clone()));
-        scene.insert("carrier".into(), Table::from_iter(hertz).into());
+        scene.insert("carrier".into(), self.wave.clone().into());
         let timeline: Vec<Value> = steps.iter().map(|&at| Value::from(at.to_vec())).collect();
         let volts = Table::from_iter([("timeline".into(), timeline.into())]);
         let pad = Table::from_iter([

@@ -6,7 +6,7 @@
 //! L(z) = C(z)·G(z),   G(z) = Σ (s_n − s_(n−1))·z^−n        s_n: what a step of the drive has done after n frames
 //! integral       C = K_p + K_i·T/(1 − 1/z)     s of √F̂
 //! proportional   C = α·K_p/(1 − (1−α)/z)       s of F̂
-//! inverse        C = V                         s of ln C′
+//! inverse        C = V                         s of ln C′;   its trim adds V·K_i/(1 − 1/z) times the G of √F̂
 //! ```
 //!
 //! s is that of the simulated pad alone, without core, noise or words, after the law in floating point has settled
@@ -19,7 +19,7 @@
 use std::f64::consts::PI;
 
 use anyhow::{Context, Result};
-use hapticore_contract::control::Tuning;
+use hapticore_contract::control::{Control, Tuning};
 use hapticore_contract::profile::ForceLaw;
 use hapticore_reference::control::{Controller, Prompt};
 use hapticore_scene::{Complex, ControlLaw, ControlPlan, HapticWave, Plant, Truth};
@@ -57,8 +57,10 @@ pub struct OpenLoop {
     law: ControlLaw,
     /// K_p and K_i·T, or α·K_p and 1 − α, or V.
     gains: [f64; 2],
-    /// What a step of 1 V has done to the law's quantity, frame by frame; nothing in the first.
-    response: Vec<f64>,
+    /// What a step of 1 V has done to the law's quantity and to √F̂, frame by frame; nothing in the first.
+    response: Vec<[f64; 2]>,
+    /// V·K_i of the inverse law's trim.
+    trim: f64,
     /// From a pad's slot to its next, s.
     pub frame_s: f64,
     /// From the middle of a window to the middle of the time for which its drive is held, s.
@@ -88,15 +90,16 @@ impl OpenLoop {
 
     fn about(bench: &Bench, gains: &Gains, rest: Rest) -> Result<OpenLoop> {
         let shifts = bench.shifts()?;
-        let (mut rest_v, mut response) = (0.0, Vec::<f64>::new());
+        let (mut rest_v, mut response) = (0.0, Vec::<[f64; 2]>::new());
         for shift in 0..shifts {
             let (held_v, before) = bench.followed(rest, 0.0, shift)?;
             let (_, after) = bench.followed(rest, STEP, shift)?;
             rest_v = held_v;
-            response.resize(before.len(), 0.0);
-            let changes = after.iter().zip(&before).map(|(after, before)| after - before);
-            for (response, change) in response.iter_mut().zip(changes) {
-                *response += change / (STEP * rest_v * shifts as f64);
+            response.resize(before.len(), [0.0; 2]);
+            for (response, (after, before)) in response.iter_mut().zip(after.iter().zip(&before)) {
+                for of in 0..2 {
+                    response[of] += (after[of] - before[of]) / (STEP * rest_v * shifts as f64);
+                }
             }
         }
         let delay_s = bench.window_s / 2.0 + bench.latency_s + bench.frame_s / 2.0;
@@ -104,6 +107,7 @@ impl OpenLoop {
             law: bench.plan.law,
             gains: [rest_v, 0.0],
             response,
+            trim: rest_v * bench.trim_per_root(),
             frame_s: bench.frame_s,
             delay_s,
             rest_v,
@@ -123,7 +127,7 @@ impl OpenLoop {
 
     /// The gain per frame with which the law corrects a step in one frame.
     pub(super) fn unit_gain(&self) -> f64 {
-        1.0 / self.response.iter().fold(0.0, |most: f64, step| most.max(*step))
+        1.0 / self.response.iter().fold(0.0, |most: f64, [step, _]| most.max(*step))
     }
 
     /// L at a frequency.
@@ -136,12 +140,13 @@ impl OpenLoop {
             ControlLaw::Proportional => first / (one - back * second),
             _ => Complex::new(first, 0.0),
         };
-        let (mut plant, mut power, mut last) = (Complex::default(), one, 0.0);
+        let trim = self.trim / (one - back);
+        let (mut loops, mut power, mut last) = (Complex::default(), one, [0.0; 2]);
         for &step in &self.response {
-            plant += power * (step - last);
+            loops += power * (law * (step[0] - last[0]) + trim * (step[1] - last[1]));
             (power, last) = (power * back, step);
         }
-        law * plant
+        loops
     }
 
     /// Margins of the loop, for a case at a force.
@@ -268,7 +273,7 @@ impl<'a> Bench<'a> {
 
     /// The steady drive, and the law's quantity, frame by frame, from the slot on after which the
     /// drive has risen by `part` of it. The rise is `shift` frames later than usual.
-    fn followed(&self, by: Rest, part: f64, shift: usize) -> Result<(f64, Vec<f64>)> {
+    fn followed(&self, by: Rest, part: f64, shift: usize) -> Result<(f64, Vec<[f64; 2]>)> {
         let (mut plant, pads) = (self.idle_plant()?, self.case.profile.pads as usize);
         let mut controller = self.controller()?;
         let closed = self.frames(CLOSED_S);
@@ -295,7 +300,7 @@ impl<'a> Bench<'a> {
                 plant.set_drive(0, start_s, held_v * (1.0 + part))?;
             }
             if frame >= rest {
-                quantities.push(self.quantity(&truth));
+                quantities.push([self.quantity(&truth), self.measured_n(&truth).sqrt()]);
             }
         }
         Ok((held_v, quantities))
@@ -414,6 +419,13 @@ impl<'a> Bench<'a> {
         self.plan.full_scale_v * drive.fraction
     }
 
+    /// K_i of the inverse law's trim, for √N and frame; other laws have none.
+    fn trim_per_root(&self) -> f64 {
+        let control = self.case.profile.control.as_ref();
+        let root = control.map_or(1.0, Control::root_full_scale);
+        if self.plan.law == ControlLaw::Inverse { self.tuning.correction / root } else { 0.0 }
+    }
+
     fn quantity(&self, truth: &Truth) -> f64 {
         match self.plan.law {
             ControlLaw::Integral => self.measured_n(truth).sqrt(),
@@ -453,8 +465,17 @@ mod tests {
     #[test]
     fn a_loop_without_dynamics_has_the_margins_of_its_polynomial() {
         for (p, i) in [(0.1, 0.5), (0.1, 1.7), (0.1, 1.9), (0.0, 1.0)] {
-            let (law, gains, response) = (ControlLaw::Integral, [p, i], vec![0.0, 1.0]);
-            let of = OpenLoop { law, gains, response, frame_s: 1e-3, delay_s: 0.0, rest_v: 1.0 };
+            let (law, gains) = (ControlLaw::Integral, [p, i]);
+            let response = vec![[0.0; 2], [1.0, 0.0]];
+            let of = OpenLoop {
+                law,
+                gains,
+                response,
+                trim: 0.0,
+                frame_s: 1e-3,
+                delay_s: 0.0,
+                rest_v: 1.0,
+            };
             let margins = of.margins(0.3);
             let expected = 1.0 / (p + i / 2.0);
             assert!((margins.gain_margin.unwrap() / expected - 1.0).abs() < 1e-6, "{p} {i}");
@@ -464,7 +485,8 @@ mod tests {
         let of = OpenLoop {
             law: ControlLaw::Integral,
             gains: [0.0, 0.5],
-            response: vec![0.0, 1.0],
+            response: vec![[0.0; 2], [1.0, 0.0]],
+            trim: 0.0,
             frame_s: 1e-3,
             delay_s: 0.0,
             rest_v: 1.0,

@@ -8,8 +8,11 @@ use hapticore_scene::{
     ControlLaw, ControlPlan, DriveCurve, ForceEstimate, Plant, WallPlan, WallRule,
 };
 
-use super::gains::Gains;
+use super::gains::{Gains, largest_n};
 use crate::case::Case;
+
+/// The trim's largest step: below an eighth of what a pad that follows a frame late bears at full scale.
+const MOST_TRIM_STEP: f64 = 0.25;
 
 /// Voltages at which the steady curve is measured.
 const MEASURED: usize = 401;
@@ -114,9 +117,11 @@ pub(super) fn of_gains(
         Law::Integral => {
             (part(gains.proportional_v) * root, part(gains.integral_v) * root * frame_s)
         }
+        Law::Inverse => (part(gains.proportional_v), trim_step(plan.trim_s, root, frame_s)),
         _ => (part(gains.proportional_v), plan.filter),
     };
-    let full_drive = adc * adc / profile.square_gain();
+    let share = pad_share(plan, plant, steady);
+    let full_drive = adc * adc / profile.square_gain() / (share * share);
     let most = control.gain.real(control.gain.max_code() as i64);
     ensure!(
         full_drive <= most,
@@ -182,12 +187,25 @@ fn nominal_load_g(plan: &ControlPlan, plant: &Plant) -> f64 {
     plan.nominal_load_g.unwrap_or_else(|| plant.mean_load_g())
 }
 
-/// Voltages and the steady forces that they give under the nominal load.
+/// Voltages of the source, from zero to the rail at the pad, and the steady forces that they give under the nominal load.
 fn steady(plan: &ControlPlan, plant: &Plant) -> Vec<[f64; 2]> {
     let step_v = plan.rail_v / (MEASURED - 1) as f64;
     let volts: Vec<f64> = (0..MEASURED).map(|n| step_v * n as f64).collect();
     let points = plant.friction_calibration(&[nominal_load_g(plan, plant)], &volts);
-    volts.into_iter().zip(points).map(|(volt, point)| [volt, point.force_n]).collect()
+    points.into_iter().map(|point| [point.source_v_rms, point.force_n]).collect()
+}
+
+/// The trim's step for each root and frame: K_i·√F/√F_full of an error of √F/√F_full is frame/time constant at 1 N.
+fn trim_step(trim_s: f64, root_full_scale: f64, frame_s: f64) -> f64 {
+    if trim_s > 0.0 { (root_full_scale * frame_s / trim_s).min(MOST_TRIM_STEP) } else { 0.0 }
+}
+
+/// The voltage at the pad by that of its source, where the case's largest force is held.
+fn pad_share(plan: &ControlPlan, plant: &Plant, steady: &[[f64; 2]]) -> f64 {
+    let step_v = plan.rail_v / (MEASURED - 1) as f64;
+    let held = steady.partition_point(|[_, force]| *force < largest_n(plan, plant, steady));
+    let held = held.clamp(1, MEASURED - 1);
+    step_v * held as f64 / steady[held][0]
 }
 
 /// The least voltage that gives a force, linear between those measured; beyond them the last.

@@ -409,6 +409,11 @@ impl Profile {
     pub fn slot_clocks(&self) -> u64 {
         self.slot.samples() * self.clocks_per_sample
     }
+
+    /// The core's clocks from a pad's slot to its next.
+    pub fn frame_clocks(&self) -> u64 {
+        self.pads * self.slot_clocks()
+    }
 }
 
 impl Control {

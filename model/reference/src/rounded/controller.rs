@@ -3,7 +3,7 @@
 //!
 //! ```text
 //! s = min([√(F_t/4^h)], 1 − lsb),   D = D_n + [(D_n+1 − D_n)·p],   n + p = cells·s
-//! inverse        d = min([√[[F_t/G] / [k·[C²]]]], D)
+//! inverse        e = [s' − [√(F/4^h)]], s' that of the pad's last valid frame, e = 0 where s' is,  B = min([√[[F_t/G] / [k·[C²]]]], D),  d = B + [[c + [K_i·e]]·B]
 //! proportional   p = [K·[F_t − F]],   d = D + [c + [α·[p − c]]]
 //! integral       e = s − [√(F/4^h)],  d = D + [K·e] + [c + [K_i·e]]
 //! ```
@@ -12,7 +12,7 @@
 //! roots of two forces differ. Their step is 2^-b with b ≥ (bits of a force) + 2·h + 1; F has no more bits than that
 //! lets differ. c is 8 bits finer still. It stays as it is while estimates are invalid. While drives are off they are
 //! zero, and every pad begins anew. Against a limit that holds the drive it goes as far as drive − (D + K·e), and not
-//! back.
+//! back; the trim of the inverse law stays as it is.
 //!
 //! [x] is x in its format: to the nearest code, ties to even, saturated.
 
@@ -48,12 +48,20 @@ struct Pad {
     invalid: u64,
     drive: Exact,
     correction: Exact,
+    /// Root of the target of its last valid frame.
+    asked: Exact,
     /// It has been lifted, and its drive has not been what its law wants since.
     rises: bool,
 }
 
 /// A pad of which nothing is known.
-const ANEW: Pad = Pad { invalid: 0, drive: Exact::ZERO, correction: Exact::ZERO, rises: false };
+const ANEW: Pad = Pad {
+    invalid: 0,
+    drive: Exact::ZERO,
+    correction: Exact::ZERO,
+    asked: Exact::ZERO,
+    rises: false,
+};
 
 /// A drive word, and whether it should be below zero or beyond the rail.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -176,7 +184,10 @@ impl Controller {
         let slewed = self.slewed(last, pad.rises, if request.invalid { last } else { within });
         let drive = if off || request.lifted { Exact::ZERO } else { slewed };
         let rises = request.lifted || pad.rises && (request.invalid || drive < within);
-        let limit = round(drive - (wanted - correction), self.kept()).value;
+        let limit = match self.control.law {
+            Law::Inverse => pad.correction,
+            _ => round(drive - (wanted - correction), self.kept()).value,
+        };
         let falls = correction < pad.correction;
         let correction = if request.invalid {
             pad.correction
@@ -188,7 +199,12 @@ impl Controller {
             correction
         };
         let correction = if request.lifted { Exact::ZERO } else { correction };
-        self.pads[request.pad] = Pad { invalid, drive, correction, rises };
+        let asked = match request {
+            Request { lifted: true, .. } => Exact::ZERO,
+            Request { invalid: true, .. } => pad.asked,
+            _ => self.root(request.target),
+        };
+        self.pads[request.pad] = Pad { invalid, drive, correction, asked, rises };
         if off {
             self.clear();
         }
@@ -226,7 +242,11 @@ impl Controller {
     /// A measured force below 4^h, in words whose roots differ.
     fn measured(&self) -> Format {
         let shift = self.control.target_shift();
-        let frac = self.profile.formats.force.frac.clamp(0, self.bits() - shift - 1);
+        let most = match self.control.law {
+            Law::Inverse => 2 * self.bits() - shift,
+            _ => self.bits() - shift - 1,
+        };
+        let frac = self.profile.formats.force.frac.clamp(0, most);
         Format::unsigned((frac + shift) as u8, frac)
     }
 
@@ -235,7 +255,11 @@ impl Controller {
     }
 
     fn kept(&self) -> Format {
-        Format::signed(self.bits() as u8 + 9, self.bits() + 8)
+        let frac = self.bits() + 8;
+        match self.control.law {
+            Law::Inverse => Format::signed(frac as u8 + 1 - Control::TRIM_BITS, frac),
+            _ => Format::signed(frac as u8 + 1, frac),
+        }
     }
 
     /// √(F/4^h), below one.
@@ -263,7 +287,11 @@ impl Controller {
             Law::Open => (Exact::ZERO, curve),
             Law::Inverse => {
                 let inverse = self.inverse(request);
-                (Exact::ZERO, if inverse > curve { curve } else { inverse })
+                let base = if inverse > curve { curve } else { inverse };
+                let trim = self.trim(request, pad);
+                let frac = self.bits();
+                let operand = Format::signed(frac as u8 + 1 - Control::TRIM_BITS, frac);
+                (trim, base + round(round(trim, operand).value * base, signed).value)
             }
             Law::Proportional => {
                 let target = self.control.target;
@@ -285,6 +313,19 @@ impl Controller {
                 (correction, curve + proportional + correction)
             }
         }
+    }
+
+    /// The trim after this frame.
+    fn trim(&self, request: &Request, pad: Pad) -> Exact {
+        if pad.asked == Exact::ZERO {
+            return pad.correction;
+        }
+        let frac = self.bits();
+        let limited = Format::signed(frac as u8 + 1 - Control::TRIM_ERROR_BITS, frac);
+        let force = round(request.force, self.measured()).value;
+        let error = round(pad.asked - self.root(force), limited).value;
+        let step = round(error * self.tuning.correction, self.kept()).value;
+        round(pad.correction + step, self.kept()).value
     }
 
     /// √(F_t/G / (k·C²)), below one.

@@ -23,7 +23,9 @@ pub(super) struct Found<V> {
     pub invalid: Signal<V>,
     /// Of the pad: its drive word, at most the rail.
     pub last: Signal<V>,
-    /// Of the pad: both, as they are in its memory, zero where it is not known.
+    /// Of the pad: the root of its last target.
+    pub asked: Signal<V>,
+    /// Of the pad: all of these, as they are in its memory, zero where it is not known.
     pub pad_word: Signal<V>,
     /// Of the pad: what corrects its curve.
     pub correction: Signal<V>,
@@ -41,12 +43,16 @@ impl Controller {
         let small = |force: Signal<V>| force.scaled(-self.shift).resize(self.radicand, Proved);
         match self.law {
             Law::Open | Law::Proportional => small(i.target),
-            Law::Inverse => r.task.at(Task::InverseRoot).select(quotient, small(i.target)),
-            Law::Integral => {
-                let force = i.measured.quantize(self.measured_format(), HalfEven, Saturate);
-                small(r.task.at(Task::ForceRoot).select(force, i.target))
-            }
+            Law::Inverse => r.task.at(Task::InverseRoot).select(quotient, small(self.rooted(r, i))),
+            Law::Integral => small(self.rooted(r, i)),
         }
+    }
+
+    /// The force whose root is taken: the target, or what is measured.
+    #[inline(always)]
+    fn rooted<V: Interpretation>(&self, r: &Regs<V>, i: &In<V>) -> Signal<V> {
+        let measured = i.measured.quantize(self.measured_format(), HalfEven, Saturate);
+        r.task.at(Task::ForceRoot).select(measured, i.target)
     }
 
     /// Operands of the next product, as integers.
@@ -77,10 +83,25 @@ impl Controller {
                 };
                 let (gain, drive) = (i.force_gain.integer(), i.tuning.full_drive.integer());
                 let left = choose(rise, capacitance, r.factor, target);
-                (left, choose(part, capacitance, gain, drive))
+                let right = choose(part, capacitance, gain, drive);
+                let trim = r.correction.quantize(self.trim_format(), HalfEven, Saturate);
+                let trimmed = |other, correct: Signal<V>, trim: Signal<V>| {
+                    let others = at(Task::Trim).select(trim.integer(), other);
+                    at(Task::Correct).select(correct.integer(), others)
+                };
+                (
+                    trimmed(left, r.error, trim),
+                    trimmed(right, i.tuning.correction, self.untrimmed(r)),
+                )
             }
         };
         (left.resize(self.left, Proved), right.resize(self.right, Proved))
+    }
+
+    /// The inverse law's drive without its trim.
+    #[inline(always)]
+    fn untrimmed<V: Interpretation>(&self, r: &Regs<V>) -> Signal<V> {
+        r.root.at_most(r.curve_drive)
     }
 
     /// F_t − F, or √F_t − √F.
@@ -124,7 +145,7 @@ impl Controller {
         match self.law {
             Law::Open => next,
             Law::Proportional | Law::Integral => self.take_feedback(next, found, root, at),
-            Law::Inverse => self.take_inverse(next, found, at),
+            Law::Inverse => self.take_inverse(next, found, root, at),
         }
     }
 
@@ -149,12 +170,9 @@ impl Controller {
     ) -> Regs<V> {
         let of = (self.error_format(), self.gain);
         let scaled = self.narrow(found, of, self.correction_format());
-        let of = (self.corrected_format(), self.gain);
-        let step = self.narrow(found, of, self.kept_format());
-        let correction = (found.correction + step).resize(self.kept_format(), Saturate);
         let next = Registers {
             proportional: at(Task::Error).select(scaled, r.proportional),
-            correction: at(Task::Correct).select(correction, r.correction),
+            correction: at(Task::Correct).select(self.stepped(found), r.correction),
             ..r
         };
         if self.law == Law::Proportional {
@@ -164,11 +182,22 @@ impl Controller {
         Registers { error: at(Task::ForceRoot).select(error, r.error), ..next }
     }
 
+    /// The correction that the pad has kept, and this frame's step.
+    #[inline(always)]
+    fn stepped<V: Interpretation>(&self, found: &Found<V>) -> Signal<V> {
+        let of = (self.corrected_format(), self.gain);
+        let step = self.narrow(found, of, self.kept_format());
+        (found.correction + step).resize(self.kept_format(), Saturate)
+    }
+
+    /// A trim's error is that of the drive before, which the force is of. It is limited, so that a pad that is pulled in
+    /// moves it little. A target of zero, which any trim of the drive gives, has none.
     #[inline(always)]
     fn take_inverse<V: Interpretation>(
         &self,
         r: Regs<V>,
         found: &Found<V>,
+        root: Signal<V>,
         at: impl Fn(Task) -> Signal<V>,
     ) -> Regs<V> {
         let square = self.narrow(found, (self.capacitance, self.capacitance), self.square);
@@ -176,7 +205,15 @@ impl Controller {
         let stiffness = self.narrow(found, of, self.stiffness_format());
         let numerator = self.narrow(found, (self.target, self.gain), self.numerator_format());
         let kept = at(Task::Stiffness).select(stiffness.integer(), r.factor);
+        let error = (found.asked - root).resize(self.error_format(), Saturate);
+        let error = found.asked.is(0).select(zero(self.error_format()), error);
+        let of = (self.trim_format(), self.drive);
+        let trim = self.narrow(found, of, self.correction_format());
         Registers {
+            asked: at(Task::ForceRoot).select(r.root, r.asked),
+            error: at(Task::ForceRoot).select(error, r.error),
+            correction: at(Task::Correct).select(self.stepped(found), r.correction),
+            proportional: at(Task::Trim).select(trim, r.proportional),
             factor: at(Task::Square).select(square.integer(), kept),
             numerator: at(Task::Target).select(numerator, r.numerator),
             ..r
@@ -198,7 +235,7 @@ impl Controller {
         let base = self.base(r);
         let wanted = match self.law {
             Law::Open => base,
-            Law::Inverse => r.root.at_most(base),
+            Law::Inverse => self.untrimmed(r) + r.proportional,
             Law::Proportional | Law::Integral => base + r.correction,
         };
         let touches = !i.lifted;
@@ -223,6 +260,10 @@ impl Controller {
         let held_above = r.low | r.wanted.less_than(drive);
         let falls = r.correction.less_than(before);
         let against = falls.select(held_above, held_below);
+        // A trim is no drive.
+        if self.law == Law::Inverse {
+            return against.select(before, r.correction);
+        }
         let limit = (drive - self.base(r)).resize(self.kept_format(), Saturate);
         let lets = falls.select(limit.less_than(before), before.less_than(limit));
         against.select(lets.select(limit, before), r.correction)

@@ -6,7 +6,8 @@
 //! open           d = D
 //! proportional   d = D + c,         c += α·(K·(F_t − F) − c)                      (paper, Fig. 8b: α = 1)
 //! integral       d = D + K·e + c,   c += K_i·e,   e = √F_t − √F
-//! inverse        d = min(√(F_t/G / (k·C²)), D)                                    (docs/physics.md §6)
+//! inverse        d = B + c·B,       c += K_i·e',  B = min(√(F_t/G / (k·C²)), D)   (docs/physics.md §6)
+//! e' = √F_t of the pad's last frame, whose drive the force is of, − √F
 //! F_t = the host's force, or that of the pad's wall where it is larger
 //! drive = d, held within 0 … rail, and within slew of the pad's last; 0 at once while off or lifted, at most the rail at once
 //! c as before of an invalid estimate; against a limit that holds the drive as far as drive − (D + K·e), never back
@@ -17,28 +18,32 @@
 //! C ─(²)─(× k)─┐                            │                         │   │
 //! target ─(÷ G)─[divider]─[√]───────────────┼─────────────────────────┘   │
 //! force ─(target −)─(× K)─(× α)─ c ─────────┴─(+)─────────────────────────┘
+//! force ─[√]─(s −)─(× K_i)─ c ─(× min)──────────(+ of the inverse law's min)
 //! ```
 //!
 //! | signal        | format                 | unit            | overflow                    |
 //! | drive         | profile                | full scale      | held within 0 … rail        |
-//! | s, D          | drive's, finer with e  | full scale      | held within 0 … full scale  |
+//! | s, D          | drive's, finer with F  | full scale      | held within 0 … full scale  |
 //! | K·e           | the same, with a sign  | full scale      | saturates                   |
 //! | c             | the same, 8 bits finer | full scale      | saturates                   |
+//! | e of a trim   | the drive's, ± 2^-6    | full scale      | saturates                   |
+//! | c of a trim   | 8 bits finer, ± ½      | of the drive    | saturates                   |
 //! | k·C²          | square's width, u·.·−4 | N               | saturates                   |
 //! | F_t/G         | target's, 3 bits more  | N               | saturates                   |
 //! | quotient      | drive's, twice         | full scale²     | saturates: then D is less   |
 //!
-//! Nothing winds up: a limit is the rail, zero, or the slew limit. A zero denominator gives the limit D. While an
-//! estimate is invalid the drive stays; see `faults.rs` for what takes it to zero. Narrowing rounds half
-//! to even.
-
+//! Nothing winds up: a limit is the rail, zero, or the slew limit, against which a trim stays as it is. A zero
+//! denominator gives the limit D. While an estimate is invalid the drive stays; see `faults.rs` for what takes it to
+//! zero. Narrowing rounds half to even.
+//!
 //! **Safe state.** A pad's last drive word, its correction and its count of invalid estimates are in memories, which no
 //! reset clears. They count only where the pad is known: a mark per pad, set with its drive word. A reset clears the
 //! marks, and so does every clock that is off. Off is: `clear`, a drive that is not enabled, a fault, a curve that has
 //! not been written completely since the reset, or ticks that have not begun. While off the drive is zero, and a drive
 //! word in progress becomes zero; a drive then begins at zero, within slew, its correction at zero. Slew limits no
-//! other fall: with a slew of zero a drive stays where it is, and what is off is zero all the same. In laws with an
-//! error, s is so fine that the roots of two forces are never the same, for a loop settles wherever its error is zero.
+//! other fall: with a slew of zero a drive stays where it is, and what is off is zero all the same. In the
+//! proportional and integral laws, s is so fine that the roots of two forces are never the same, for a loop settles
+//! wherever its error is zero.
 //!
 //! One multiplier, one square root and one divider serve all steps. Latency: the sum of the law's
 //! tasks and a clock, from `start` to `done`.
@@ -127,7 +132,8 @@ block! {
         divider: Divider,
         /// Drive words of the curve.
         points: Memory,
-        /// Of each pad that is known: whether it rises after contact, invalid frames in a row, and the drive word.
+        /// Of each pad that is known: whether it rises after contact, invalid frames in a row, the drive word, and √F_t
+        /// with a trim.
         pads: Memory,
         /// Of each pad that is known: what corrects the curve.
         corrections: Memory,
@@ -187,10 +193,13 @@ block! {
         factor: block.of_inverse(block.square.integer()),
         /// F_t/G.
         numerator: block.of_inverse(block.numerator_format()),
+        /// √F_t of this frame, which the next one's error is of.
+        asked: block.of_inverse(block.fine),
         /// √F_t − √F.
-        error: block.of_integral(block.error_format()),
+        error: block.of_roots(block.error_format()),
+        /// What comes on top of the curve in proportion: to the error, or by the trim to the drive.
         proportional: block.of_feedback(block.correction_format()),
-        /// The filter's new state, or the integral with this frame.
+        /// The filter's new state, or the integral or the trim with this frame.
         correction: block.of_feedback(block.kept_format()),
         /// Of the pad, as its memory has it: a clock late, so that no path goes from memory to memory.
         pad_word: block.pads.format,
@@ -248,7 +257,8 @@ impl Controller {
         let radicand = words::radicand(control, fine);
         let (left, right) = words::operands(control, f);
         let invalid = Format::counter(control.invalid_frames);
-        let word = Format::unsigned(1 + invalid.width + drive.width, 0);
+        let asked = if law == Law::Inverse { fine.width } else { 0 };
+        let word = Format::unsigned(1 + invalid.width + drive.width + asked, 0);
         Controller {
             multiplier: Multiplier::new(left, right, profile.multiplier),
             sqrt: SquareRoot::new(radicand, fine.frac),
@@ -256,7 +266,7 @@ impl Controller {
             points: Memory::new("points", cells as usize + 1, drive).dont_care_on_collision(),
             // Few pads would make registers of them, a word after the other.
             pads: Memory::new("pads", words, word).dont_care_on_collision().in_block(),
-            corrections: Memory::new("corrections", words, words::kept(fine))
+            corrections: Memory::new("corrections", words, words::kept(law, fine))
                 .dont_care_on_collision()
                 .in_block(),
             radicand,
@@ -424,7 +434,8 @@ impl Controller {
         let inputs = sqrt::Inputs { start: r.sqrt_start, radicand };
         let root = call!(self.sqrt, state, inputs);
         let within = &mut state.submodules;
-        let (pad, pad_word) = (r.pad_word, self.pads.data(&mut within.pads));
+        let (pad, asked) = self.without_asked(r.pad_word);
+        let pad_word = self.pads.data(&mut within.pads);
         let correction = match self.feeds_back() {
             true => self.corrections.data(&mut within.corrections),
             false => zero(self.kept_format()),
@@ -438,6 +449,7 @@ impl Controller {
             rises: pad.msb(),
             invalid: pad.bits(self.drive.width, pad.format.width - self.drive.width - 1),
             last: pad.bits(0, self.drive.width).as_code(self.drive).at_most(i.tuning.rail),
+            asked,
             pad_word: counts(pad_word),
             correction: counts(correction),
         };
@@ -526,6 +538,7 @@ impl Controller {
         let enable = r.task.at(Task::Limit);
         let rises = self.rises(r, i, found.rises, drive);
         let data = rises.concat(self.invalid_count(i, found.invalid)).concat(drive.integer());
+        let data = self.with_asked(data, r, i, found);
         let write = Write { enable, address: i.pad, data };
         self.pads.access(&mut state.submodules.pads, i.pad, write);
         if self.feeds_back() {
@@ -537,10 +550,42 @@ impl Controller {
         }
     }
 
+    /// What is known of a pad with the root of its last target, where the law's error is of it.
+    #[inline(always)]
+    fn with_asked<V: Interpretation>(
+        &self,
+        data: Signal<V>,
+        r: &Regs<V>,
+        i: &In<V>,
+        found: &Found<V>,
+    ) -> Signal<V> {
+        if self.law != Law::Inverse {
+            return data;
+        }
+        let asked = i.invalid.select(found.asked, r.asked);
+        data.concat(i.lifted.select(zero(self.fine), asked).integer())
+    }
+
+    /// Both again: what is known of a pad, and the root of its last target.
+    #[inline(always)]
+    fn without_asked<V: Interpretation>(&self, word: Signal<V>) -> (Signal<V>, Signal<V>) {
+        if self.law != Law::Inverse {
+            return (word, zero(self.fine));
+        }
+        let bits = self.fine.width;
+        (word.bits(bits, word.format.width - bits), word.bits(0, bits).as_code(self.fine))
+    }
+
     /// Whether the law has an error.
     #[inline(always)]
     fn feeds_back(&self) -> bool {
-        matches!(self.law, Law::Proportional | Law::Integral)
+        self.law != Law::Open
+    }
+
+    /// Whether the error of the law is one of roots.
+    #[inline(always)]
+    fn roots_force(&self) -> bool {
+        matches!(self.law, Law::Integral | Law::Inverse)
     }
 
     /// Bits of the number of a cell of the curve.

@@ -18,7 +18,7 @@ states! {
     /// The tasks of a drive word.
     pub enum Task {
         Idle, Root, Curve, Interpolate, Square, Stiffness, Target, Divide, InverseRoot, ForceRoot, Error,
-        Correct, Combine, Limit,
+        Correct, Trim, Combine, Limit,
     }
 }
 
@@ -34,11 +34,14 @@ impl Task {
                 Root,
                 Curve,
                 Interpolate,
+                ForceRoot,
                 Square,
                 Stiffness,
                 Target,
                 Divide,
                 InverseRoot,
+                Correct,
+                Trim,
                 Combine,
                 Limit,
             ],
@@ -48,7 +51,7 @@ impl Task {
     /// Whether it takes a product.
     fn multiplies(self) -> bool {
         use Task::*;
-        matches!(self, Interpolate | Square | Stiffness | Target | Error | Correct)
+        matches!(self, Interpolate | Square | Stiffness | Target | Error | Correct | Trim)
     }
 
     /// Whether it takes a square root.

@@ -28,13 +28,17 @@ impl Controller {
     /// What the pad keeps of its correction.
     #[inline(always)]
     pub(super) fn kept_format(&self) -> Format {
-        kept(self.fine)
+        kept(self.law, self.fine)
     }
 
     /// A measured force, below the scale of targets.
     #[inline(always)]
     pub(super) fn measured_format(&self) -> Format {
-        let frac = measured_frac(self.fine, self.force, self.shift);
+        let frac = match self.law {
+            // Its square root is as fine as a drive word, and takes twice as many bits.
+            Law::Inverse => self.force.frac.clamp(0, 2 * self.fine.frac - self.shift),
+            _ => measured_frac(self.fine, self.force, self.shift),
+        };
         Format::unsigned((frac + self.shift) as u8, frac)
     }
 
@@ -44,14 +48,15 @@ impl Controller {
         match self.law {
             Law::Proportional => error(self.target, self.measured_format().frac),
             Law::Integral => correction(self.fine),
-            Law::Open | Law::Inverse => Format::NONE,
+            Law::Inverse => less(correction(self.fine), Control::TRIM_ERROR_BITS),
+            Law::Open => Format::NONE,
         }
     }
 
     /// What the correction's gain takes.
     #[inline(always)]
     pub(super) fn corrected_format(&self) -> Format {
-        if self.law == Law::Integral { self.error_format() } else { self.correction_format() }
+        if self.law == Law::Proportional { self.correction_format() } else { self.error_format() }
     }
 
     /// The part of a cell of the curve.
@@ -61,16 +66,22 @@ impl Controller {
         Format::unsigned(bits, bits as i8)
     }
 
+    /// The trim as the drive is multiplied by it.
+    #[inline(always)]
+    pub(super) fn trim_format(&self) -> Format {
+        less(self.correction_format(), Control::TRIM_BITS)
+    }
+
     /// A register of laws with an error.
     #[inline(always)]
     pub(super) fn of_feedback(&self, format: Format) -> Format {
         format.where_present(self.feeds_back())
     }
 
-    /// A register of the integral law.
+    /// A register of laws with an error of roots.
     #[inline(always)]
-    pub(super) fn of_integral(&self, format: Format) -> Format {
-        format.where_present(self.law == Law::Integral)
+    pub(super) fn of_roots(&self, format: Format) -> Format {
+        format.where_present(self.roots_force())
     }
 
     /// A register of the inverse law.
@@ -83,16 +94,17 @@ impl Controller {
     pub(super) fn products(&self) -> Vec<(&'static str, Format, Format)> {
         let signed = self.correction_format();
         let rise = ("the rise within a cell", signed.product(self.part_format()), signed);
+        let step = (
+            "the product of corrected error and gain",
+            self.corrected_format().product(self.gain),
+            self.kept_format(),
+        );
         match self.law {
             Law::Open => vec![rise],
             Law::Proportional | Law::Integral => vec![
                 rise,
                 ("the product of error and gain", self.error_format().product(self.gain), signed),
-                (
-                    "the product of corrected error and gain",
-                    self.corrected_format().product(self.gain),
-                    self.kept_format(),
-                ),
+                step,
             ],
             Law::Inverse => vec![
                 rise,
@@ -111,6 +123,8 @@ impl Controller {
                     self.target.product(self.gain),
                     self.numerator_format(),
                 ),
+                step,
+                ("the product of trim and drive", self.trim_format().product(self.drive), signed),
             ],
         }
     }
@@ -187,8 +201,14 @@ const fn error(target: Format, measured_frac: i8) -> Format {
 /// step still moves it.
 const FINER: u8 = 8;
 
-pub(super) const fn kept(fine: Format) -> Format {
-    Format::signed(fine.width + 1 + FINER, fine.frac + FINER as i8)
+pub(super) fn kept(law: Law, fine: Format) -> Format {
+    let kept = Format::signed(fine.width + 1 + FINER, fine.frac + FINER as i8);
+    if law == Law::Inverse { less(kept, Control::TRIM_BITS) } else { kept }
+}
+
+/// The same words below 2^-`bits` of full scale.
+fn less(format: Format, bits: u8) -> Format {
+    Format::signed(format.width - bits, format.frac)
 }
 
 pub(super) const fn correction(fine: Format) -> Format {

@@ -36,7 +36,13 @@ fn settings(law: usize, of: &[Setting]) -> Vec<(String, String)> {
     };
     let law = LAWS[law].set.iter().map(|(key, value)| (format!("control.{key}"), quoted(value)));
     let others = of.iter().map(|(key, value)| (key.to_string(), quoted(value)));
-    law.chain(others).chain([("sensor.noise_ppm_rms".to_string(), "0".to_string())]).collect()
+    let fixed = [("supply", "false"), ("control.force", "\"eq8\""), ("sensor.noise_ppm_rms", "0")];
+    fixed
+        .map(|(key, value)| (key.to_string(), value.to_string()))
+        .into_iter()
+        .chain(law)
+        .chain(others)
+        .collect()
 }
 
 /// The slots of a law around a plant with these settings; `invalid` slots reach the core as zeros.

@@ -127,7 +127,7 @@ pub fn places_csv(measurements: &[Measurement], phases: bool) -> String {
 
 pub fn loads_csv(points: &[ForcePoint]) -> String {
     let mut text = String::from("load_g,haptic_v_rms,capacitance_pf,force_n\n");
-    for ForcePoint { load_g, haptic_v_rms, capacitance_pf, force_n } in points {
+    for ForcePoint { load_g, haptic_v_rms, capacitance_pf, force_n, .. } in points {
         writeln!(text, "{load_g},{haptic_v_rms},{capacitance_pf},{force_n}").unwrap();
     }
     text
@@ -142,7 +142,13 @@ pub fn forces(k: f64, noise_n: f64, noise: &mut Noise) -> Vec<ForcePoint> {
             let capacitance_pf = 320.0 + 0.5 * load_g + 0.1 * haptic_v_rms;
             let force_n =
                 k * (1e-12 * capacitance_pf * haptic_v_rms).powi(2) + noise_n * noise.normal();
-            points.push(ForcePoint { load_g, haptic_v_rms, capacitance_pf, force_n });
+            points.push(ForcePoint {
+                load_g,
+                haptic_v_rms,
+                source_v_rms: haptic_v_rms,
+                capacitance_pf,
+                force_n,
+            });
         }
     }
     points
