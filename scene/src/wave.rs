@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! How the haptic voltage goes on in time, of which a scene sets the RMS.
 //!
-//! ```toml
-//! [carrier]
-//! haptic_wave = "square"          # "sine" (default) | "dc" | "square"
-//! haptic_hz = 1000                # of the sine
-//! haptic_turn_s = 0.0017          # a square's polarity turns so often, 1 µs at least, from time 0 on; with every slot where absent
-//! ```
-//!
 //! A sine and a square have no mean, so that no charge gathers in the insulators (`effects/charge`);
 //! of a square V² is constant, too. Source: docs/physics.md §7.
 
 use crate::error::SceneError;
-use crate::format::{Limits, Table};
+use crate::format::{Key, Limits, Table, keys};
 use crate::stimulus::{Moment, next_multiple};
+
+keys! { KEYS:
+    /// How the haptic voltage goes on in time.
+    HAPTIC_WAVE: Option<&'static str> = Key::choice("haptic_wave", || vec!["sine", "dc", "square"]).usually("sine");
+    /// Time from one turn of a square's polarity to the next, from time 0 on.
+    HAPTIC_TURN_S: Option<f64> = Key::number("haptic_turn_s", Limits::within(1e-6, 1e5)).usually("a turn with every slot");
+}
 
 /// How the haptic voltage goes on in time.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,8 +34,8 @@ impl HapticWave {
     /// Reads `[carrier]`'s keys.
     pub(crate) fn read(root: &Table) -> Result<HapticWave, SceneError> {
         let Some(carrier) = root.table("carrier")? else { return Ok(HapticWave::Sine) };
-        let word = carrier.choice("haptic_wave", &["sine", "dc", "square"])?;
-        let turn_s = carrier.number("haptic_turn_s", Limits::within(1e-6, 1e5))?;
+        let word = carrier.get(&HAPTIC_WAVE)?;
+        let turn_s = carrier.get(&HAPTIC_TURN_S)?;
         match (word, turn_s) {
             (Some("square"), turn_s) => Ok(HapticWave::Square { turn_s }),
             (_, Some(_)) => Err(carrier.error(

@@ -12,31 +12,40 @@
 //! | --- | --- | --- |
 //! | `steady` | amplitudes | none once R_lim·(C + C_par), a quarter of a millisecond, has passed |
 //!
-//! `limiting_kohm` is the resistor that keeps the current harmless, `transformer_h` the inductance
-//! of the winding that adds the sensing voltage, `parasitic_pf` the capacitance of cable and pad to
-//! ground. Source: docs/physics.md §3; the inductance is no one's measurement, hence 0.
+//! Source: docs/physics.md §3; the inductance is no one's measurement, hence 0.
 
 use std::f64::consts::TAU;
 
 use super::effect::{Effect, PadEffect};
 use super::pad::{Pad, Supply};
-use super::spec::{Level, Spec};
+use super::spec::{Level, Rung, Spec};
 use crate::device::{Device, EPSILON_0};
 use crate::error::SceneError;
-use crate::format::{Limits, Table};
+use crate::format::{Key, Limits, Table, keys};
 use crate::wave::HapticWave;
+
+keys! { KEYS:
+    /// Level of the supply.
+    RUNG: Option<&'static str> = Rung::choice("rung", || vec!["steady"]).usually("steady");
+    /// Resistor that keeps the current harmless.
+    LIMITING_KOHM: f64 = Key::number("limiting_kohm", Limits::within(0.0, 1e6)).or(300.0);
+    /// Inductance of the winding that adds the sensing voltage; 0 with a square.
+    TRANSFORMER_H: f64 = Key::number("transformer_h", Limits::within(0.0, 1e3)).or(0.0);
+    /// Capacitance of cable and pad to ground.
+    PARASITIC_PF: f64 = Key::number("parasitic_pf", Limits::within(0.0, 1e6)).or(100.0);
+}
 
 pub(super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneError> {
     let Some(table) = root.table("supply")? else { return Ok(None) };
-    let transformer_h = table.number_or("transformer_h", Limits::within(0.0, 1e3), 0.0)?;
+    let transformer_h = table.get(&TRANSFORMER_H)?;
     if matches!(device.haptic_wave, HapticWave::Square { .. }) && transformer_h > 0.0 {
         let message = "expected 0 with carrier.haptic_wave = \"square\", whose turns would ring";
         return Err(table.error("transformer_h", message));
     }
     let supply = Supply {
-        limiting_ohm: 1e3 * table.number_or("limiting_kohm", Limits::within(0.0, 1e6), 300.0)?,
+        limiting_ohm: 1e3 * table.get(&LIMITING_KOHM)?,
         transformer_h,
-        parasitic_f: 1e-12 * table.number_or("parasitic_pf", Limits::within(0.0, 1e6), 100.0)?,
+        parasitic_f: 1e-12 * table.get(&PARASITIC_PF)?,
         rad_s: TAU * device.haptic_hz,
         wave: device.haptic_wave,
     };
@@ -45,7 +54,7 @@ pub(super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneE
         let supply = Supply { wave: setting.device.haptic_wave, ..supply };
         Effect::Pad(Box::new(Supplied { supply, pad_m2 }))
     });
-    Spec::with_levels("supply", Some(table), vec![steady], "steady")
+    Spec::with_levels("supply", Some(table), &RUNG, vec![steady], "steady")
 }
 
 struct Supplied {
