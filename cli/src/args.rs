@@ -28,6 +28,12 @@ const EXIT: &str = "Exit status: 0 all criteria pass, 1 one fails, 2 bad input."
 pub enum Command {
     /// List the bundled scenes: their cases, effects and criteria
     Scenes(ScenesArgs),
+    /// Print every table and key that a scene may have, with meaning, unit, default and range
+    #[command(after_help = REFERENCE)]
+    Reference(ReferenceArgs),
+    /// Write a commented scene, profile or set-up that runs as it is
+    #[command(after_help = NEW)]
+    New(NewArgs),
     /// Run a scene through the core and check its criteria
     #[command(after_help = SIMULATE)]
     Simulate(SimulateArgs),
@@ -399,6 +405,65 @@ pub struct ScenesArgs {
     /// Print results as JSON
     #[arg(long)]
     pub json: bool,
+}
+
+const REFERENCE: &str = "Examples:
+  hapticore reference                       # all tables
+  hapticore reference wall                  # a table, as gap, pad, pad.position_mm or stimulus
+  hapticore reference gap.rung              # a key; a name without a table finds it in all tables
+  hapticore reference criteria              # measures; columns: quantities and columns
+  hapticore reference --schema > scene.schema.json
+
+An editor with a TOML language server takes the schema by a first line \"#:schema ./scene.schema.json\" of the scene.
+
+Exit status: 0 done, 2 bad input.";
+
+/// Arguments of `reference`.
+#[derive(Debug, clap::Args)]
+pub struct ReferenceArgs {
+    /// A table or a key: wall, wall.force_n, force_n; or columns, criteria [default: all tables]
+    pub key: Option<String>,
+    /// Print it as JSON
+    #[arg(long, conflicts_with_all = ["markdown", "schema"])]
+    pub json: bool,
+    /// Print it as Markdown
+    #[arg(long, conflicts_with = "schema")]
+    pub markdown: bool,
+    /// Print a JSON Schema of scenes, for editors
+    #[arg(long, conflicts_with = "key")]
+    pub schema: bool,
+}
+
+const NEW: &str = "Examples:
+  hapticore new scene mine.toml && hapticore simulate mine.toml
+  hapticore new profile words.toml && hapticore simulate fig6 --profile words.toml
+
+Exit status: 0 done, 2 bad input, or there is such a file.";
+
+/// Arguments of `new`.
+#[derive(Debug, clap::Args)]
+pub struct NewArgs {
+    /// What is written
+    #[arg(value_enum)]
+    pub kind: NewKind,
+    /// The file, which must not exist
+    #[arg(value_name = "FILE")]
+    pub file: PathBuf,
+}
+
+/// What `new` writes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum NewKind {
+    /// A scene with cases and criteria
+    Scene,
+    /// A core's word lengths, counts and timings
+    Profile,
+    /// A scene with a virtual wall
+    Wall,
+    /// A scene with a force loop
+    Loop,
+    /// What is known of a display before it is measured, for calibrate
+    Calibration,
 }
 
 /// Arguments that choose how the core is run.

@@ -4,7 +4,7 @@
 //! | module | does |
 //! | --- | --- |
 //! | [`args`] | the command line |
-//! | [`simulate`], [`replay`], [`hdl`], [`codes`](mod@codes), [`calibrate`], [`tradeoff`], [`sweep`], [`scenes`], [`live`], [`host`] | one command each |
+//! | [`simulate`], [`replay`], [`hdl`], [`codes`](mod@codes), [`calibrate`], [`tradeoff`], [`sweep`], [`scenes`], [`mod@reference`], [`new`], [`live`], [`host`] | one command each |
 //! | [`output`], [`print`](mod@print), [`report`] | what a run leaves: a folder of files, lines on the terminal, a page of figures |
 //! | [`waves`] | waveforms of a case |
 //! | [`folder`], [`console`], [`progress`] | which folder; standard output that may be closed; how far a run is |
@@ -20,9 +20,11 @@ pub mod folder;
 pub mod hdl;
 pub mod host;
 pub mod live;
+pub mod new;
 pub mod output;
 pub mod print;
 pub mod progress;
+pub mod reference;
 pub mod replay;
 pub mod report;
 pub mod scenes;
@@ -46,6 +48,8 @@ pub fn main() -> ExitCode {
     interrupt::listen();
     let outcome = match args.command {
         Command::Scenes(args) => scenes::run(&args),
+        Command::Reference(args) => reference::run(&args),
+        Command::New(args) => new::run(&args),
         Command::Simulate(args) => simulate::run(&args),
         Command::Replay(args) => replay::run(&args),
         Command::Hdl(args) => hdl::run(&args),

@@ -1,34 +1,46 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `[arena]`: a table of air hockey, whose mallets are the scene's pads.
 //!
-//! ```toml
-//! [wall]                       # stiffness and largest force of the arena's walls; their places are the arena's
-//!
-//! [arena]
-//! half_mm = [300, 180]         # half of its length and of its height; its centre is the sheet's
-//! goal_half_mm = 60            # half of a goal's width, in the middle of either short side
-//! mallet_radius_mm = 15        # default: the pad's
-//! puck_radius_mm = 12
-//! puck_g = 20
-//! puck_mu = 0.02               # its friction on the table
-//! puck_mm = [0, 0]             # where it is served, and how fast
-//! puck_mm_s = [0, 0]
-//! restitution_wall = 0.9       # speed after by speed before
-//! restitution_mallet = 0.8
-//! impact_ms = 30               # for so long a mallet feels an impact
-//! force_n = 1                  # the most that an impact gives
-//! serve_s = [1.5, 4]           # when a new puck is served, besides the first
-//! ```
-//!
 //! The plant does not play: a host does, from the frames of the core. A pad plays the half in which it starts. Source:
 //! Nakamura and Yamamoto, IEEE Trans. Haptics 2016, whose game this is after; docs/physics.md §6.
 
 use crate::device::Device;
+use crate::effects::split_electrode::QUADRANTS;
 use crate::error::SceneError;
-use crate::format::{Limits, Table};
+use crate::format::{Key, Limits, Table, keys};
+use crate::pad::TARGET_N;
 
 /// Keys of `[wall]` that the arena decides.
 const OF_WALL: [&str; 4] = ["surface_mm", "inside", "surface_y_mm", "inside_y"];
+
+keys! { KEYS:
+    /// Half of the table's length and of its height, at most half of the sheet; its centre is the sheet's.
+    HALF_MM: [f64; 2] = Key::pair("half_mm", Limits::above(0.0, 1e4)).or(&[300.0, 180.0]);
+    /// Half of a goal's width, in the middle of either short side, at least the puck's radius.
+    GOAL_HALF_MM: Option<f64> = Key::number("goal_half_mm", Limits::above(0.0, 1e4)).usually("a third of half the height");
+    /// Radius of a mallet, at most a quarter of the smaller of `half_mm`.
+    MALLET_RADIUS_MM: Option<f64> = Key::number("mallet_radius_mm", Limits::above(0.0, 2.5e3)).usually("the pad's");
+    /// Radius of the puck, at most a quarter of the smaller of `half_mm`.
+    PUCK_RADIUS_MM: Option<f64> = Key::number("puck_radius_mm", Limits::above(0.0, 2.5e3)).usually("12, or the most that is allowed");
+    /// Mass of the puck.
+    PUCK_G: f64 = Key::number("puck_g", Limits::within(0.1, 1e3)).or(20.0);
+    /// Coefficient of the puck's friction on the table.
+    PUCK_MU: f64 = Key::number("puck_mu", Limits::within(0.0, 10.0)).or(0.02);
+    /// Where the puck is served.
+    PUCK_MM: [f64; 2] = Key::pair("puck_mm", Limits::within(-1e4, 1e4)).or(&[0.0; 2]);
+    /// How fast the puck is served, along x and y.
+    PUCK_MM_S: [f64; 2] = Key::pair("puck_mm_s", Limits::within(-1e4, 1e4)).or(&[0.0; 2]);
+    /// Speed after by speed before an impact on a wall.
+    RESTITUTION_WALL: f64 = Key::number("restitution_wall", Limits::within(0.0, 1.0)).or(0.9);
+    /// Speed after by speed before an impact on a mallet.
+    RESTITUTION_MALLET: f64 = Key::number("restitution_mallet", Limits::within(0.0, 1.0)).or(0.8);
+    /// How long a mallet feels an impact.
+    IMPACT_MS: f64 = Key::number("impact_ms", Limits::within(1.0, 1e3)).or(30.0);
+    /// The most that an impact gives.
+    FORCE_N: f64 = Key::number("force_n", Limits::within(0.0, 100.0)).or(1.0);
+    /// Times, rising, at which a new puck is served, besides the first.
+    SERVE_S: Option<Vec<f64>> = Key::numbers("serve_s", Limits::within(0.0, 1e5));
+}
 
 /// A table of air hockey as a scene asks for it.
 ///
@@ -77,7 +89,7 @@ impl ArenaPlan {
         let Some(table) = root.table("arena")? else { return Ok(None) };
         check_scene(root, table)?;
         let sheet_mm = [device.width_mm, device.height_mm].map(|size_mm| size_mm / 2.0);
-        let half_mm = table.pair("half_mm", Limits::above(0.0, 1e4))?.unwrap_or([300.0, 180.0]);
+        let half_mm = table.get(&HALF_MM)?;
         if half_mm.iter().zip(sheet_mm).any(|(half, sheet)| *half > sheet) {
             let message =
                 format!("expected at most {sheet_mm:?}, half of the sheet, got {half_mm:?}");
@@ -85,34 +97,32 @@ impl ArenaPlan {
         }
         let [half_x_mm, half_y_mm] = half_mm;
         let most_mm = 0.25 * half_x_mm.min(half_y_mm);
-        let radius = |key, default: f64| {
-            table.number_or(key, Limits::above(0.0, most_mm), default.min(most_mm))
+        let radius = |key: Key<Option<f64>>, default: f64| {
+            table.get(&key.within(Limits::above(0.0, most_mm)).or(default.min(most_mm)))
         };
-        let puck_radius_mm = radius("puck_radius_mm", 12.0)?;
+        let puck_radius_mm = radius(PUCK_RADIUS_MM, 12.0)?;
         let goal = Limits::within(puck_radius_mm, half_y_mm);
         let [reach_x_mm, reach_y_mm] = half_mm.map(|half| half - puck_radius_mm);
-        let places = Limits::within(-1e4, 1e4);
-        let puck_mm = table.pair("puck_mm", places)?.unwrap_or_default();
+        let puck_mm = table.get(&PUCK_MM)?;
         if puck_mm[0].abs() > reach_x_mm || puck_mm[1].abs() > reach_y_mm {
             let message = format!(
                 "expected a place within ±{reach_x_mm} and ±{reach_y_mm} mm, got {puck_mm:?}"
             );
             return Err(table.error("puck_mm", message));
         }
-        let share = |key, default| table.number_or(key, Limits::within(0.0, 1.0), default);
         Ok(Some(ArenaPlan {
             half_mm,
-            goal_half_mm: table.number_or("goal_half_mm", goal, half_y_mm / 3.0)?,
-            mallet_radius_mm: radius("mallet_radius_mm", device.pad_diameter_mm / 2.0)?,
+            goal_half_mm: table.get(&GOAL_HALF_MM.within(goal).or(half_y_mm / 3.0))?,
+            mallet_radius_mm: radius(MALLET_RADIUS_MM, device.pad_diameter_mm / 2.0)?,
             puck_radius_mm,
-            puck_g: table.number_or("puck_g", Limits::within(0.1, 1e3), 20.0)?,
-            puck_mu: table.number_or("puck_mu", Limits::within(0.0, 10.0), 0.02)?,
+            puck_g: table.get(&PUCK_G)?,
+            puck_mu: table.get(&PUCK_MU)?,
             puck_mm,
-            puck_mm_s: table.pair("puck_mm_s", Limits::within(-1e4, 1e4))?.unwrap_or_default(),
-            restitution_wall: share("restitution_wall", 0.9)?,
-            restitution_mallet: share("restitution_mallet", 0.8)?,
-            impact_ms: table.number_or("impact_ms", Limits::within(1.0, 1e3), 30.0)?,
-            force_n: table.number_or("force_n", Limits::within(0.0, 100.0), 1.0)?,
+            puck_mm_s: table.get(&PUCK_MM_S)?,
+            restitution_wall: table.get(&RESTITUTION_WALL)?,
+            restitution_mallet: table.get(&RESTITUTION_MALLET)?,
+            impact_ms: table.get(&IMPACT_MS)?,
+            force_n: table.get(&FORCE_N)?,
             serve_s: serves(table)?,
         }))
     }
@@ -126,18 +136,18 @@ fn check_scene(root: &Table, table: &Table) -> Result<(), SceneError> {
         );
     };
     let halves = root.table("halves")?;
-    if !halves.map_or(Ok(false), |halves| halves.flag("quadrants"))? {
+    if !halves.map_or(Ok(false), |halves| halves.get(&QUADRANTS))? {
         let message =
             "expected [halves] with quadrants = true too: the arena has walls along x and y";
         return Err(table.error("", message));
     }
-    if let Some(key) = OF_WALL.into_iter().find(|key| wall.get(key).is_some()) {
+    if let Some(key) = OF_WALL.into_iter().find(|key| wall.node(key).is_some()) {
         return Err(wall.error(key, "expected none with [arena], which places the walls"));
     }
-    if root.get("duration_s").is_none() {
+    if root.node("duration_s").is_none() {
         return Err(table.error("", "expected duration_s too: a game goes on in time"));
     }
-    let aimed = |pad: &&&Table| pad.get("target_n").is_some();
+    let aimed = |pad: &&&Table| pad.has(&TARGET_N);
     match root.tables("pad")?.iter().find(aimed) {
         Some(pad) => {
             Err(pad.error("target_n", "expected none with [arena], whose impacts are the targets"))
@@ -148,7 +158,7 @@ fn check_scene(root: &Table, table: &Table) -> Result<(), SceneError> {
 
 /// When pucks are served.
 fn serves(table: &Table) -> Result<Vec<f64>, SceneError> {
-    let serve_s = table.numbers("serve_s", Limits::within(0.0, 1e5))?.unwrap_or_default();
+    let serve_s = table.get(&SERVE_S)?.unwrap_or_default();
     match serve_s.is_sorted() {
         true => Ok(serve_s),
         false => Err(table.error("serve_s", "expected times that rise")),

@@ -10,7 +10,7 @@ use crate::device::Device;
 use crate::doubts;
 use crate::effects::{EFFECTS, SPLITTING, Spec, carrier, part};
 use crate::error::SceneError;
-use crate::format::{Limits, Node, Table, Value};
+use crate::format::{Key, Limits, Node, Table, Value, keys};
 use crate::pad::{PadPlan, Tables};
 use crate::stimulus::Moment;
 use crate::timing::Timing;
@@ -20,6 +20,17 @@ const MOST_PADS: usize = 16;
 
 /// The most points of a sweep, every combination of the quantities that a pad sweeps.
 const MOST_POINTS: usize = 10_000_000;
+
+keys! { KEYS:
+    /// How long the scene goes on, where pads move and nothing is swept.
+    DURATION_S: Option<f64> = Key::number("duration_s", Limits::above(0.0, 1e5));
+    /// Slots of each pad at each point of a sweep.
+    DWELL_SLOTS: Option<u64> = Key::whole("dwell_slots", 1, 1_000_000).usually("1");
+    /// The host takes out of measurements what `[coupling]` did to them.
+    UNCOUPLE: bool = Key::flag("uncouple");
+    /// Largest error that fidelity levels may add: chooses the levels that the effects' tables leave open.
+    ERROR_BUDGET_PERCENT: Option<f64> = Key::number("error_budget_percent", Limits::above(0.0, 100.0));
+}
 
 /// Keys of a scene that say what is done with its device, and not what that is.
 const DONE_WITH_IT: [&str; 10] = [
@@ -284,8 +295,8 @@ impl Case {
         }
         let plan = |(index, table): (usize, &&Table)| PadPlan::read(table, index, &device, has);
         let pads = tables.iter().enumerate().map(plan).collect::<Result<Vec<_>, _>>()?;
-        let budget_percent = root.number("error_budget_percent", Limits::above(0.0, 100.0))?;
-        let cancels_crosstalk = root.flag("uncouple")?;
+        let budget_percent = root.get(&ERROR_BUDGET_PERCENT)?;
+        let cancels_crosstalk = root.get(&UNCOUPLE)?;
         if cancels_crosstalk && !effects.iter().any(|effect| effect.name == "coupling") {
             return Err(
                 root.error("uncouple", "expected a [coupling] that could be taken out again")
@@ -390,8 +401,8 @@ fn nominal(root: &Table, device: &Device) -> Result<Vec<Spec>, SceneError> {
 
 impl Length {
     fn read(root: &Table, pads: &[PadPlan]) -> Result<Length, SceneError> {
-        let duration_s = root.number("duration_s", Limits::above(0.0, 1e5))?;
-        let dwell = root.whole("dwell_slots", 1, 1_000_000)?;
+        let duration_s = root.get(&DURATION_S)?;
+        let dwell = root.get(&DWELL_SLOTS)?;
         let points = pads.iter().map(PadPlan::points).max().unwrap_or(1);
         if points > MOST_POINTS {
             let message = format!("expected at most {MOST_POINTS} points of a sweep, got more");

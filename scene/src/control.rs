@@ -1,24 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `[control]`: a force controller in the place of the scene's haptic voltages.
 //!
-//! ```toml
-//! [[pad]]
-//! target_n = { timeline = [[0, 0], [0.5, 0], [0.5, 0.6]] }   # the force that the pad shall have
-//!
-//! [control]
-//! law = "inverse"        # open | proportional | integral | inverse
-//! force = "eq8"          # eq8 | table: how the core estimates the force; else as the profile says
-//! curve = "steady"       # steady: the voltage that gives a force at rest; square-root: V = K·√F, eq. 9;
-//!                        # linear: V = K·F
-//! ```
-//!
 //! The plant does not control: it takes the voltages that somebody sets
 //! ([`Plant::set_drive`](crate::Plant::set_drive)). This is what a run is asked to close around it,
 //! in volts and newtons. Source: paper, eq. 9 and Fig. 8; docs/physics.md §6.
 
 use crate::device::Device;
 use crate::error::SceneError;
-use crate::format::{Limits, Table};
+use crate::format::{Key, Limits, Table, Word, keys};
 use crate::wall::WallPlan;
 
 /// How a drive follows from target and measurement.
@@ -34,17 +23,19 @@ pub enum ControlLaw {
     Inverse,
 }
 
-const LAWS: [(&str, ControlLaw); 4] = [
-    ("open", ControlLaw::Open),
-    ("proportional", ControlLaw::Proportional),
-    ("integral", ControlLaw::Integral),
-    ("inverse", ControlLaw::Inverse),
-];
+impl Word for ControlLaw {
+    const WORDS: &[(&str, ControlLaw)] = &[
+        ("open", ControlLaw::Open),
+        ("proportional", ControlLaw::Proportional),
+        ("integral", ControlLaw::Integral),
+        ("inverse", ControlLaw::Inverse),
+    ];
+}
 
 impl ControlLaw {
     /// Its name in a scene.
     pub fn name(self) -> &'static str {
-        LAWS.iter().find(|(_, law)| *law == self).map_or("", |(name, _)| name)
+        self.word()
     }
 }
 
@@ -57,8 +48,10 @@ pub enum ForceEstimate {
     Table,
 }
 
-const FORCES: [(&str, ForceEstimate); 2] =
-    [("eq8", ForceEstimate::Eq8), ("table", ForceEstimate::Table)];
+impl Word for ForceEstimate {
+    const WORDS: &[(&str, ForceEstimate)] =
+        &[("eq8", ForceEstimate::Eq8), ("table", ForceEstimate::Table)];
+}
 
 /// Which voltage goes with a force before anything is measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -71,11 +64,13 @@ pub enum DriveCurve {
     Steady,
 }
 
-const CURVES: [(&str, DriveCurve); 3] = [
-    ("square-root", DriveCurve::SquareRoot),
-    ("linear", DriveCurve::Linear),
-    ("steady", DriveCurve::Steady),
-];
+impl Word for DriveCurve {
+    const WORDS: &[(&str, DriveCurve)] = &[
+        ("square-root", DriveCurve::SquareRoot),
+        ("linear", DriveCurve::Linear),
+        ("steady", DriveCurve::Steady),
+    ];
+}
 
 /// What a curve, a full scale or a cap may be.
 const LIMITS: Limits = Limits::within(1e-6, 1e6);
@@ -87,7 +82,40 @@ const HEADROOM: f64 = 0.95;
 const FILTER: f64 = 0.2;
 
 /// The trim's time constant where none is given, s: some milliseconds of pull-in move it little, and five of 0.3 N take 0.14 s.
-const TRIM_S: f64 = 0.015;
+const USUAL_TRIM_S: f64 = 0.015;
+keys! { KEYS:
+    /// How the drive follows from target and measurement: `open` (the curve alone, eq. 9), `proportional` (Fig. 8b),
+    /// `integral` (of the force's root) or `inverse` (the voltage for the target at the capacitance just measured).
+    LAW: ControlLaw = Key::words("law").or_word("inverse");
+    /// How the core estimates the force: eq. 8, or the force table of the calibration.
+    FORCE: Option<ForceEstimate> = Key::words("force").usually("as the profile says");
+    /// The voltage of a force before anything is measured: the one that gives it at rest under the nominal load (`steady`),
+    /// K·√F (`square-root`, eq. 9) or K·F (`linear`).
+    CURVE: Option<DriveCurve> = Key::words("curve").usually("steady with law = \"inverse\", else square-root");
+    /// Factor of the curve's voltage; with `inverse`, how far beyond the curve the drive may go.
+    CURVE_FACTOR: Option<f64> = Key::number("curve_factor", LIMITS).usually("1.13 with law = \"inverse\", else 1");
+    /// Load at which the steady curve is measured.
+    NOMINAL_LOAD_G: Option<f64> = Key::number("nominal_load_g", Limits::within(0.0, 1e5)).usually("the mean of the pads' loads");
+    /// K of eq. 9 in V/√N; of a linear curve in V/N.
+    FEED_FORWARD_V: Option<f64> = Key::number("feed_forward_v", LIMITS).usually("that of the steady curve at the largest force");
+    /// Gain of the error, V/N with `proportional`, V/√N with `integral`.
+    PROPORTIONAL_V: Option<f64> = Key::number("proportional_v", Limits::within(0.0, 1e5)).usually("from device and profile");
+    /// With `proportional`, the share of the correction that a frame takes on.
+    FILTER_SHARE: Option<f64> = Key::number("filter", Limits::above(0.0, 1.0)).usually("1; 0.2 where `proportional_v` is left out");
+    /// With `inverse`, the time constant of the trim to the force that is read, at 1 N; at F 1/√F times as long. No trim
+    /// where it is 0.
+    TRIM_S: f64 = Key::number("trim_s", Limits::within(0.0, 1e3)).or(USUAL_TRIM_S);
+    /// With `integral`, the gain of the integral, V/(√N·s).
+    INTEGRAL_V: Option<f64> = Key::number("integral_v", Limits::within(0.0, 1e7)).usually("from device and profile");
+    /// Full scale of the drive, V RMS.
+    FULL_SCALE_V: f64 = Key::number("full_scale_v", LIMITS).or(500.0);
+    /// Largest drive, V RMS, at most `full_scale_v`.
+    RAIL_V: Option<f64> = Key::number("rail_v", LIMITS).usually("`full_scale_v`, or 0.95 of what the haptic channel reads");
+    /// Largest change of the drive from frame to frame, V RMS, at most `full_scale_v`.
+    SLEW_V: Option<f64> = Key::number("slew_v", LIMITS).usually("`full_scale_v`");
+    /// A larger measured force is a fault, which takes every drive to zero.
+    FORCE_CAP_N: f64 = Key::number("force_cap_n", LIMITS).or(1e6);
+}
 
 /// A force controller as a scene asks for it.
 ///
@@ -145,34 +173,30 @@ impl ControlPlan {
     /// The table, where there is one.
     pub(crate) fn read(root: &Table, device: &Device) -> Result<Option<ControlPlan>, SceneError> {
         let Some(table) = root.table("control")? else { return Ok(None) };
-        let number = |key, default| table.number_or(key, LIMITS, default);
-        let law = table.word("law", &LAWS)?.unwrap_or(ControlLaw::Inverse);
+        let law = table.get(&LAW)?;
         let inverse = law == ControlLaw::Inverse;
         let curve = if inverse { DriveCurve::Steady } else { DriveCurve::SquareRoot };
-        let full_scale_v = number("full_scale_v", 500.0)?;
+        let full_scale_v = table.get(&FULL_SCALE_V)?;
         let within = Limits::within(1e-6, full_scale_v);
-        let proportional_v = table.number("proportional_v", Limits::within(0.0, 1e5))?;
-        let integral_v = table.number("integral_v", Limits::within(0.0, 1e7))?;
+        let proportional_v = table.get(&PROPORTIONAL_V)?;
+        let integral_v = table.get(&INTEGRAL_V)?;
         let computed = proportional_v.is_none() && law == ControlLaw::Proportional;
         let filter = if computed { FILTER } else { 1.0 };
         Ok(Some(ControlPlan {
             law,
-            force: table.word("force", &FORCES)?,
-            curve: table.word("curve", &CURVES)?.unwrap_or(curve),
-            curve_factor: number("curve_factor", if inverse { 1.13 } else { 1.0 })?,
-            nominal_load_g: table.number("nominal_load_g", Limits::within(0.0, 1e5))?,
-            feed_forward_v: table.number("feed_forward_v", LIMITS)?,
+            force: table.get(&FORCE)?,
+            curve: table.get(&CURVE)?.unwrap_or(curve),
+            curve_factor: table.get(&CURVE_FACTOR.or(if inverse { 1.13 } else { 1.0 }))?,
+            nominal_load_g: table.get(&NOMINAL_LOAD_G)?,
+            feed_forward_v: table.get(&FEED_FORWARD_V)?,
             proportional_v,
-            filter: table.number_or("filter", Limits::above(0.0, 1.0), filter)?,
-            trim_s: table.number_or("trim_s", Limits::within(0.0, 1e3), TRIM_S)?,
+            filter: table.get(&FILTER_SHARE.or(filter))?,
+            trim_s: table.get(&TRIM_S)?,
             integral_v,
-            rail_v: table.number_or(
-                "rail_v",
-                within,
-                full_scale_v.min(HEADROOM * device.readable_v()),
-            )?,
-            slew_v: table.number_or("slew_v", within, full_scale_v)?,
-            force_cap_n: number("force_cap_n", 1e6)?,
+            rail_v: table
+                .get(&RAIL_V.within(within).or(full_scale_v.min(HEADROOM * device.readable_v())))?,
+            slew_v: table.get(&SLEW_V.within(within).or(full_scale_v))?,
+            force_cap_n: table.get(&FORCE_CAP_N)?,
             wall: WallPlan::read(root)?,
             full_scale_v,
         }))

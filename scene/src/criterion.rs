@@ -1,92 +1,110 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Criteria: what a scene claims; the program that runs the scene measures them.
-//!
-//! ```toml
-//! [[criterion]]
-//! name = "force spread over the sheet"
-//! measure = "spread_percent"      # see `Measure`
-//! of = "force_n"                  # see `Quantity`
-//! limit = 0.1                     # the measure must be at most this
-//! expected = 343                  # with max_off, mean_off, jump_off and departure_off: what it should be
-//! departure_percent = 15          # with departure_off: how much more than by its law is a departure; 25
-//! with = "load_g"                 # with increases_with and nonlinearity_percent
-//! case = "rest"                   # or cases = ["a", "b"]; all cases where absent
-//! per = "group"                   # case | group: taken over each, the worst counts
-//! where = { haptic_v_rms = [50, 300], time_s = [0.5, 10] }   # only slots whose truth lies within
-//! ```
 
 use crate::error::SceneError;
-use crate::format::{Limits, Table};
+use crate::format::{Key, Limits, Table, Word, keys};
 use crate::quantity::Quantity;
 
-/// How much more than by its law a quantity must be, percent, where the scene does not say it.
-const DEPARTURE_PERCENT: f64 = 25.0;
+keys! { KEYS:
+    /// What the criterion says, for people.
+    NAME: String = Key::text("name").required("text");
+    /// What is measured over the slots that the criterion covers.
+    MEASURE: Measure = Key::words("measure").required("what is measured");
+    /// The quantity that is measured.
+    OF: Quantity = Key::words("of").required("a quantity");
+    /// The measure must be at most this.
+    LIMIT: f64 = Key::number("limit", Limits::ANY).required("a number");
+    /// What it should be, with `max_off`, `mean_off`, `jump_off` and `departure_off`: a value, a time or a haptic voltage.
+    EXPECTED: Option<f64> = Key::number("expected", Limits::ANY);
+    /// With `departure_off`, how much more than by its law is a departure.
+    DEPARTURE: f64 = Key::number("departure_percent", Limits::above(0.0, 1e4)).or(25.0);
+    /// The other quantity of `increases_with` and `nonlinearity_percent`.
+    WITH: Option<Quantity> = Key::words("with");
+    /// The case that the criterion covers.
+    CASE: Option<String> = Key::text("case").usually("all cases");
+    /// The cases that the criterion covers, in place of `case`.
+    CASES: Option<Vec<String>> = Key::texts("cases").usually("all cases");
+    /// Over what the measure is taken before the worst counts: each case, or each group of a sweep.
+    PER: Per = Key::words("per").or_word("case");
+    /// Ranges that the truth of quantities must lie in for a slot to count: `{ haptic_v_rms = [50, 300] }`.
+    WHERE: () = Key::ranges("where");
+    /// Unit of the limit and of what is measured.
+    UNIT: Option<String> = Key::text("unit").usually("that of the measure");
+}
 
-/// What a criterion measures over the slots that it covers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Measure {
+/// Declares the measures, each by its name in a scene.
+macro_rules! measures {
+    ($($(#[doc = $doc:literal])+ $measure:ident: $name:literal;)+) => {
+        /// What a criterion measures over the slots that it covers.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum Measure {
+            $($(#[doc = $doc])+ $measure,)+
+        }
+
+        impl Word for Measure {
+            const WORDS: &[(&str, Measure)] = &[$(($name, Measure::$measure),)+];
+        }
+
+        impl Measure {
+            /// What it is, in a sentence.
+            pub fn says(self) -> &'static str {
+                match self {
+                    $(Measure::$measure => concat!($($doc),+).trim_ascii(),)+
+                }
+            }
+        }
+    };
+}
+
+measures! {
     /// Largest |estimate − truth|; for a position the distance.
-    MaxAbsError,
+    MaxAbsError: "max_abs_error";
     /// Root mean square of estimate − truth; for a position of the distance.
-    RmsError,
+    RmsError: "rms_error";
     /// Mean of estimate − truth, by magnitude.
-    MeanError,
+    MeanError: "mean_error";
     /// Largest |estimate − truth| in percent of the truth.
-    MaxPercentError,
+    MaxPercentError: "max_percent_error";
     /// (max − min)/mean of the estimate, percent.
-    SpreadPercent,
+    SpreadPercent: "spread_percent";
     /// Smallest step, negated, between group means ordered by the truth of `with`, all else equal,
     /// in percent of the mean: below the limit (usually 0) where the estimate rises throughout.
-    IncreasesWith,
+    IncreasesWith: "increases_with";
     /// Largest departure of the estimate from the straight line that fits it best over the truth of
     /// `with`, all else equal, in percent of what the line spans.
-    NonlinearityPercent,
+    NonlinearityPercent: "nonlinearity_percent";
     /// Largest sample of the ADC channels, percent of full scale.
-    MaxPercentOfFullScale,
+    MaxPercentOfFullScale: "max_percent_of_full_scale";
     /// Percent of finished slots whose result is flagged invalid.
-    InvalidPercent,
+    InvalidPercent: "invalid_percent";
     /// Largest |estimate − expected|; of what the plant alone knows, |truth − expected|.
-    MaxOff,
+    MaxOff: "max_off";
     /// |mean of the estimate − expected|; of what the plant alone knows, of the truth.
-    MeanOff,
+    MeanOff: "mean_off";
     /// Root mean square of truth − target, of the force of a pad with a controller.
-    RmsOffTarget,
+    RmsOffTarget: "rms_off_target";
     /// Largest truth − target, of the force of a pad with a controller: how far it overshoots.
-    MaxAboveTarget,
+    MaxAboveTarget: "max_above_target";
     /// Largest target − truth, of the force of a pad with a controller.
-    MaxBelowTarget,
+    MaxBelowTarget: "max_below_target";
     /// How far from the expected time the estimate jumps: where the mean of a pad's next seven slots
     /// rises most above that of the seven before, by five times its mean change at least.
-    JumpOff,
+    JumpOff: "jump_off";
     /// How far from the expected haptic voltage the estimate leaves its law at low voltages: where
     /// it first is `departure_percent` more than up to 100 V. A force goes with the square of the voltage, so
     /// that is per volt squared; any other quantity does not depend on it.
-    DepartureOff,
+    DepartureOff: "departure_off";
 }
 
-const MEASURES: [(&str, Measure); 16] = [
-    ("max_abs_error", Measure::MaxAbsError),
-    ("rms_error", Measure::RmsError),
-    ("mean_error", Measure::MeanError),
-    ("max_percent_error", Measure::MaxPercentError),
-    ("spread_percent", Measure::SpreadPercent),
-    ("increases_with", Measure::IncreasesWith),
-    ("nonlinearity_percent", Measure::NonlinearityPercent),
-    ("max_percent_of_full_scale", Measure::MaxPercentOfFullScale),
-    ("invalid_percent", Measure::InvalidPercent),
-    ("max_off", Measure::MaxOff),
-    ("mean_off", Measure::MeanOff),
-    ("rms_off_target", Measure::RmsOffTarget),
-    ("max_above_target", Measure::MaxAboveTarget),
-    ("max_below_target", Measure::MaxBelowTarget),
-    ("jump_off", Measure::JumpOff),
-    ("departure_off", Measure::DepartureOff),
-];
-
 impl Measure {
+    /// Every measure.
+    pub fn all() -> impl Iterator<Item = Measure> {
+        Measure::WORDS.iter().map(|(_, measure)| *measure)
+    }
+
     /// The measure's name in a scene: `spread_percent`.
     pub fn name(self) -> &'static str {
-        name_of(&MEASURES, self)
+        self.word()
     }
 
     fn is_of_target(self) -> bool {
@@ -127,6 +145,10 @@ pub enum Per {
     Case,
     /// Over the slots of each group of a sweep: equal load, voltage and capacitance.
     Group,
+}
+
+impl Word for Per {
+    const WORDS: &[(&str, Per)] = &[("case", Per::Case), ("group", Per::Group)];
 }
 
 /// A range that the truth of a quantity must lie in for a slot to count.
@@ -191,10 +213,9 @@ pub struct Criterion {
 
 impl Criterion {
     pub(crate) fn read(table: &Table, cases: &[String]) -> Result<Criterion, SceneError> {
-        let measure = table.word("measure", &MEASURES)?;
-        let measure = table.require("measure", "what is measured", measure)?;
-        let of = table.require("of", "a quantity", quantity(table, "of")?)?;
-        let with = quantity(table, "with")?;
+        let measure = table.get(&MEASURE)?;
+        let of = table.get(&OF)?;
+        let with = table.get(&WITH)?;
         let lines = matches!(measure, Measure::IncreasesWith | Measure::NonlinearityPercent);
         if with.is_some() != lines {
             let measures = "\"increases_with\" or \"nonlinearity_percent\"";
@@ -206,25 +227,22 @@ impl Criterion {
             return Err(table.error("of", message));
         }
         let departs = measure == Measure::DepartureOff;
-        if !departs && table.get("departure_percent").is_some() {
+        if !departs && table.has(&DEPARTURE) {
             let message = "expected with measure = \"departure_off\", and only there";
             return Err(table.error("departure_percent", message));
         }
-        let percents = Limits::above(0.0, 1e4);
         Ok(Criterion {
-            departure_percent: table.number_or("departure_percent", percents, DEPARTURE_PERCENT)?,
-            name: table.require("name", "text", table.text("name")?)?,
+            departure_percent: table.get(&DEPARTURE)?,
+            name: table.get(&NAME)?,
             measure,
             of,
             with,
             expected: read_expected(table, measure)?,
             cases: read_cases(table, cases)?,
-            per: table
-                .word("per", &[("case", Per::Case), ("group", Per::Group)])?
-                .unwrap_or_default(),
+            per: table.get(&PER)?,
             filters: read_filters(table)?,
-            limit: table.require("limit", "a number", table.number("limit", Limits::ANY)?)?,
-            unit: table.text("unit")?.unwrap_or_else(|| measure.unit(of).to_string()),
+            limit: table.get(&LIMIT)?,
+            unit: table.get(&UNIT)?.unwrap_or_else(|| measure.unit(of).to_string()),
         })
     }
 
@@ -235,7 +253,7 @@ impl Criterion {
 }
 
 fn read_expected(table: &Table, measure: Measure) -> Result<Option<f64>, SceneError> {
-    let expected = table.number("expected", Limits::ANY)?;
+    let expected = table.get(&EXPECTED)?;
     if expected.is_some()
         == matches!(
             measure,
@@ -249,9 +267,9 @@ fn read_expected(table: &Table, measure: Measure) -> Result<Option<f64>, SceneEr
 }
 
 fn read_cases(table: &Table, known: &[String]) -> Result<Vec<String>, SceneError> {
-    let (key, names) = match table.text("case")? {
+    let (key, names) = match table.get(&CASE)? {
         Some(name) => ("case", vec![name]),
-        None => ("cases", table.texts("cases")?.unwrap_or_default()),
+        None => ("cases", table.get(&CASES)?.unwrap_or_default()),
     };
     match names.iter().find(|name| !known.contains(name)) {
         Some(name) => Err(table
@@ -261,20 +279,10 @@ fn read_cases(table: &Table, known: &[String]) -> Result<Vec<String>, SceneError
 }
 
 fn read_filters(table: &Table) -> Result<Vec<Where>, SceneError> {
-    let Some(ranges) = table.table("where")? else { return Ok(Vec::new()) };
+    let Some(ranges) = table.table(WHERE.about.name)? else { return Ok(Vec::new()) };
     let read = |of: Quantity| -> Result<Option<Where>, SceneError> {
         let range = ranges.pair(of.name(), Limits::ANY)?;
         Ok(range.map(|[low, high]| Where { of, low, high }))
     };
     Quantity::all().filter(|of| of.is_scalar()).filter_map(|of| read(of).transpose()).collect()
-}
-
-/// The quantity that `key` names.
-fn quantity(table: &Table, key: &'static str) -> Result<Option<Quantity>, SceneError> {
-    let names: Vec<_> = Quantity::all().map(Quantity::name).collect();
-    Ok(table.choice(key, &names)?.and_then(Quantity::named))
-}
-
-fn name_of<T: Copy + PartialEq>(words: &[(&'static str, T)], value: T) -> &'static str {
-    words.iter().find(|(_, word)| *word == value).map_or("", |(name, _)| name)
 }

@@ -3,8 +3,8 @@
 
 use std::f64::consts::{PI, TAU};
 
-use crate::error::SceneError;
-use crate::format::{Limits, Table};
+use crate::error::{Place, SceneError};
+use crate::format::{Key, Limits, Table, keys};
 use crate::terminals::{VOLTAGES, terminals_mm};
 use crate::timing::Timing;
 use crate::wave::{self, HapticWave};
@@ -14,6 +14,37 @@ pub const EPSILON_0: f64 = 8.854_187_812_8e-12;
 
 /// Standard gravity (docs/physics.md §3).
 const GRAVITY_M_S2: f64 = 9.80665;
+
+keys! { KEYS:
+    /// Size of the sheet along x, larger than a pad.
+    WIDTH_MM: f64 = Key::number("width_mm", Limits::above(0.1, 1e4)).or(860.0);
+    /// Size of the sheet along y, larger than a pad.
+    HEIGHT_MM: f64 = Key::number("height_mm", Limits::above(0.1, 1e4)).or(500.0);
+    /// Diameter of a pad.
+    PAD_DIAMETER_MM: f64 = Key::number("pad_diameter_mm", Limits::within(0.1, 1e4)).or(30.0);
+    /// Coefficient of friction μ of pad and sheet.
+    MU: f64 = Key::number("mu", Limits::within(1e-4, 10.0)).or(0.12);
+    /// Weight of a load by its mass.
+    GRAVITY: f64 = Key::number("gravity_m_s2", Limits::within(1e-3, 1e3)).or(GRAVITY_M_S2);
+}
+
+keys! { CARRIER_KEYS:
+    /// Frequency of the sensing carrier.
+    FREQUENCY_HZ: f64 = Key::number("frequency_hz", Limits::within(1.0, 1e9)).or(100e3);
+    /// Amplitude of the sensing carrier, peak.
+    AMPLITUDE_V: f64 = Key::number("amplitude_v", Limits::within(1e-6, 1e5)).or(5.0);
+    /// Frequency of the haptic voltage, where it is a sine.
+    HAPTIC_HZ: f64 = Key::number("haptic_hz", Limits::within(1e-3, 1e8)).or(1000.0);
+}
+
+keys! { FULL_SCALE_KEYS:
+    /// Current at the end of a terminal's ADC range, peak.
+    CURRENT_FULL_SCALE_MA: f64 = Key::number("current_full_scale_ma", Limits::within(1e-6, 1e6)).or(4.0);
+    /// Sensing voltage at the end of its ADC range, peak.
+    SENSE_FULL_SCALE_V: f64 = Key::number("sense_full_scale_v", Limits::within(1e-6, 1e6)).or(8.0);
+    /// Haptic voltage at the end of its ADC range, peak.
+    HAPTIC_FULL_SCALE_V: f64 = Key::number("haptic_full_scale_v", Limits::within(1e-3, 1e6)).or(600.0);
+}
 
 /// Sizes, full scales, frequencies and the nominal force law of the display.
 ///
@@ -91,52 +122,33 @@ impl Device {
     /// Reads `[device]`, `[carrier]`'s voltages, frequencies and wave and `[sensor]`'s full scales; all
     /// have defaults.
     pub(crate) fn read(root: &Table) -> Result<Device, SceneError> {
-        let number =
-            |table: &'static str, key: &'static str, limits: Limits, default: f64| match root
-                .table(table)?
-            {
-                Some(table) => table.number_or(key, limits, default),
-                None => Ok(default),
-            };
-        let pad_diameter_mm = number("device", "pad_diameter_mm", Limits::within(0.1, 1e4), 30.0)?;
+        let number = |table: &'static str, key: Key<f64>| match root.table(table)? {
+            Some(table) => table.get(&key),
+            None => Table::new("", Place::File).get(&key),
+        };
+        let pad_diameter_mm = number("device", PAD_DIAMETER_MM)?;
         let smallest = Limits::above(pad_diameter_mm, 1e4);
-        let mu = number("device", "mu", Limits::within(1e-4, 10.0), 0.12)?;
-        let carrier_hz = number("carrier", "frequency_hz", Limits::within(1.0, 1e9), 100e3)?;
+        let mu = number("device", MU)?;
+        let carrier_hz = number("carrier", FREQUENCY_HZ)?;
         let pad_area_m2 = PI / 4.0 * (pad_diameter_mm * 1e-3).powi(2);
         let mut device = Device {
             terminals_mm: Vec::new(),
-            current_full_scale_a: 1e-3
-                * number("sensor", "current_full_scale_ma", Limits::within(1e-6, 1e6), 4.0)?,
-            sense_full_scale_v: number(
-                "sensor",
-                "sense_full_scale_v",
-                Limits::within(1e-6, 1e6),
-                8.0,
-            )?,
-            haptic_full_scale_v: number(
-                "sensor",
-                "haptic_full_scale_v",
-                Limits::within(1e-3, 1e6),
-                600.0,
-            )?,
-            carrier_v: number("carrier", "amplitude_v", Limits::within(1e-6, 1e5), 5.0)?,
+            current_full_scale_a: 1e-3 * number("sensor", CURRENT_FULL_SCALE_MA)?,
+            sense_full_scale_v: number("sensor", SENSE_FULL_SCALE_V)?,
+            haptic_full_scale_v: number("sensor", HAPTIC_FULL_SCALE_V)?,
+            carrier_v: number("carrier", AMPLITUDE_V)?,
             carrier_hz,
             carrier_rad_s: TAU * carrier_hz,
-            haptic_hz: number("carrier", "haptic_hz", Limits::within(1e-3, 1e8), 1000.0)?,
+            haptic_hz: number("carrier", HAPTIC_HZ)?,
             haptic_wave: HapticWave::read(root)?,
             recharge_s: wave::recharge_s(root, pad_area_m2)?,
             sample_rate_hz: f64::NAN, // the profile's, known when a plant is built
-            width_mm: number("device", "width_mm", smallest, 860.0)?,
-            height_mm: number("device", "height_mm", smallest, 500.0)?,
+            width_mm: number("device", WIDTH_MM.within(smallest))?,
+            height_mm: number("device", HEIGHT_MM.within(smallest))?,
             pad_diameter_mm,
             pad_area_m2,
             mu,
-            gravity_m_s2: number(
-                "device",
-                "gravity_m_s2",
-                Limits::within(1e-3, 1e3),
-                GRAVITY_M_S2,
-            )?,
+            gravity_m_s2: number("device", GRAVITY)?,
             force_k: mu / (2.0 * EPSILON_0 * pad_area_m2),
         };
         device.terminals_mm = terminals_mm(root, [device.width_mm, device.height_mm])?;

@@ -108,7 +108,7 @@ fn unreadable_direction(
     }
     let at_sheet = match root.table("halves")? {
         Some(halves) => {
-            halves.get("push_height_mm").and_then(|node| node.value.number()) == Some(0.0)
+            halves.node("push_height_mm").and_then(|node| node.value.number()) == Some(0.0)
         }
         None => true,
     };

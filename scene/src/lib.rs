@@ -52,6 +52,7 @@
 //! | know what a scene claims | [`Criterion`], [`Measure`] |
 //! | know the force loop, the walls and the game that a scene asks for | [`ControlPlan`], [`WallPlan`], [`ArenaPlan`] |
 //! | start from a bundled scene | [`gallery`] |
+//! | know every table and key of a scene | [`mod@reference`] |
 //!
 //! Inside, from the bottom up:
 //!
@@ -61,7 +62,8 @@
 //! | `terminals`, `device`, `ratios` | where the terminals are, sizes and full scales, signs of the ratios |
 //! | `stimulus`, `trajectory`, `pad`, `pad_inputs`, `input_limits`, `drive` | what a pad does over a sweep or over time, or is made to do |
 //! | `effects` | one file or folder for each effect; `effects::EFFECTS` is the list of all |
-//! | `case`, `scene`, `criterion`, `quantity` | a scene as it is read |
+//! | `case`, `head`, `scene`, `criterion`, `quantity` | a scene as it is read |
+//! | `reference` | all tables with their keys |
 //! | `plant`, `budget`, `nominal` | a case at work; errors of the fidelity levels; the sheet as its host knows it |
 //!
 //! The plant knows no bit widths of the core and writes no file.
@@ -79,6 +81,7 @@ mod error;
 mod few;
 mod format;
 pub mod gallery;
+mod head;
 mod input_limits;
 mod nominal;
 mod pad;
@@ -87,9 +90,11 @@ mod plant;
 mod quantity;
 mod random;
 mod ratios;
+pub mod reference;
 mod rotor;
 mod scene;
 mod stimulus;
+mod suggest;
 mod terminals;
 mod threads;
 mod timing;
@@ -107,6 +112,7 @@ pub use criterion::{Criterion, Measure, Per, Where};
 pub use device::{Device, EPSILON_0};
 pub use effects::{Compression, EffectCost};
 pub use error::{Place, SceneError};
+pub use head::{Figure, Record};
 pub use input_limits::DriveError;
 pub use nominal::NominalSheet;
 pub use num_complex::Complex64 as Complex;
@@ -115,7 +121,8 @@ pub use pad_inputs::{FingerPath, Line};
 pub use plant::{Plant, Slot};
 pub use quantity::Quantity;
 pub use ratios::signs_by_place;
-pub use scene::{Figure, Record, Scene};
+pub use scene::Scene;
+pub use suggest::did_you_mean;
 pub use terminals::{LEAST_TERMINALS, MOST_TERMINALS, PerTerminal};
 pub use timing::Timing;
 pub use truth::{ForcePoint, MapPoint, PadMeasurement, Setpoint, Truth};

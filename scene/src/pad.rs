@@ -6,7 +6,7 @@ use crate::device::{Device, EPSILON_0};
 use crate::effects::pad::{FilmChange, Pad};
 use crate::effects::sheet::ideal::ideal_split;
 use crate::error::SceneError;
-use crate::format::{Limits, Table};
+use crate::format::{Key, Limits, Table, keys};
 use crate::input_limits::{LOAD, PUSH, VOLTAGE};
 use crate::stimulus::{Moment, Stimulus, next_multiple};
 use crate::trajectory::{self, SLACK_MM, Trajectory};
@@ -17,6 +17,25 @@ const CAPACITANCE_PF: f64 = 318.0;
 
 /// The load on a pad that names none, g.
 pub const DEFAULT_LOAD_G: f64 = 20.0;
+
+keys! { KEYS:
+    /// The pad's name, by which overrides know it.
+    NAME: Option<String> = Key::text("name").usually("pad and its number");
+    /// Mass that presses the pad.
+    LOAD_G: Stimulus = Key::stimulus("load_g", LOAD).or(DEFAULT_LOAD_G);
+    /// Haptic voltage of the source; with `[control]` a pad has `target_n` instead.
+    HAPTIC_V_RMS: Stimulus = Key::stimulus("haptic_v_rms", VOLTAGE).or(0.0);
+    /// Capacitance between pad and sheet, where no `[gap]` decides it.
+    CAPACITANCE: Stimulus = Key::stimulus("capacitance_pf", Limits::above(0.0, 1e6)).or(CAPACITANCE_PF);
+    /// Eccentricity of the push, right of the pad's centre, at most a quarter of its diameter; with `[halves]`.
+    ECCENTRICITY_MM: Stimulus = Key::stimulus("eccentricity_mm", Limits::within(-2.5e3, 2.5e3)).or(0.0);
+    /// The force that the pad shall have; with `[control]`.
+    TARGET_N: Option<Stimulus> = Key::over_time("target_n", Limits::within(0.0, 100.0)).usually("0");
+    /// A push along x besides the finger's; with `[hand]`.
+    PUSH_X_N: Option<Stimulus> = Key::over_time("push_x_n", PUSH).usually("0");
+    /// A push along y besides the finger's; with `[hand]`.
+    PUSH_Y_N: Option<Stimulus> = Key::over_time("push_y_n", PUSH).usually("0");
+}
 
 /// What one pad does: its trajectory and its stimuli.
 #[derive(Clone, Debug)]
@@ -46,37 +65,34 @@ impl PadPlan {
         device: &Device,
         has: Tables,
     ) -> Result<PadPlan, SceneError> {
-        let stimulus = |key, limits, default| {
-            Ok(Stimulus::read(table, key, limits)?.unwrap_or(Stimulus::Constant(default)))
-        };
-        if has.gap && table.get("capacitance_pf").is_some() {
+        if has.gap && table.has(&CAPACITANCE) {
             return Err(table.error(
                 "capacitance_pf",
                 "expected no capacitance of its own, since [gap] decides it",
             ));
         }
         let push = |key| match has.finger {
-            true => read_push(table, key),
+            true => over_time(table, key, "a push"),
             false => Ok(Stimulus::Constant(0.0)),
         };
         let reach_mm = device.electrode_offset_mm();
         let eccentricity_mm = match has.split_electrode {
-            true => stimulus("eccentricity_mm", Limits::within(-reach_mm, reach_mm), 0.0)?,
+            true => table.get(&ECCENTRICITY_MM.within(Limits::within(-reach_mm, reach_mm)))?,
             false => Stimulus::Constant(0.0),
         };
         let target_n = read_target(table, has)?;
         Ok(PadPlan {
             eccentricity_mm,
             target_n,
-            push_n: [push("push_x_n")?, push("push_y_n")?],
+            push_n: [push(&PUSH_X_N)?, push(&PUSH_Y_N)?],
             charges: has.charge,
             reach_mm: trajectory::reach_mm(table, device)?,
             has_finger: has.finger,
-            name: table.text("name")?.unwrap_or_else(|| format!("pad {index}")),
+            name: table.get(&NAME)?.unwrap_or_else(|| format!("pad {index}")),
             trajectory: Trajectory::read(table, device)?,
-            load_g: stimulus("load_g", LOAD, DEFAULT_LOAD_G)?,
-            haptic_v_rms: stimulus("haptic_v_rms", VOLTAGE, 0.0)?,
-            capacitance_pf: stimulus("capacitance_pf", Limits::above(0.0, 1e6), CAPACITANCE_PF)?,
+            load_g: table.get(&LOAD_G)?,
+            haptic_v_rms: table.get(&HAPTIC_V_RMS)?,
+            capacitance_pf: table.get(&CAPACITANCE)?,
         })
     }
 
@@ -256,25 +272,19 @@ pub(crate) fn pad_as_set(
     }
 }
 
-/// A push, over time only.
-fn read_push(table: &Table, key: &'static str) -> Result<Stimulus, SceneError> {
-    over_time(table, key, "a push", Stimulus::read(table, key, PUSH)?)
-}
-
 /// A stimulus that is not swept; zero where there is none.
 pub(crate) fn over_time(
     table: &Table,
-    key: &'static str,
+    key: &Key<Option<Stimulus>>,
     what: &str,
-    stimulus: Option<Stimulus>,
 ) -> Result<Stimulus, SceneError> {
-    let stimulus = stimulus.unwrap_or(Stimulus::Constant(0.0));
+    let stimulus = table.get(key)?.unwrap_or(Stimulus::Constant(0.0));
     match stimulus.points() {
         1 => Ok(stimulus),
-        points => {
-            Err(table
-                .error(key, format!("expected {what} over time, got a sweep of {points} points")))
-        }
+        points => Err(table.error(
+            key.about.name,
+            format!("expected {what} over time, got a sweep of {points} points"),
+        )),
     }
 }
 
@@ -283,12 +293,11 @@ fn read_target(table: &Table, has: Tables) -> Result<Stimulus, SceneError> {
     if !has.control {
         return Ok(Stimulus::Constant(0.0));
     }
-    if table.get("haptic_v_rms").is_some() {
+    if table.has(&HAPTIC_V_RMS) {
         let message = "expected none, since [control] decides it; a pad has target_n instead";
         return Err(table.error("haptic_v_rms", message));
     }
-    let stimulus = Stimulus::read(table, "target_n", Limits::within(0.0, 100.0))?;
-    over_time(table, "target_n", "a force", stimulus)
+    over_time(table, &TARGET_N, "a force")
 }
 
 /// The tables of a scene that give a pad's keys their meaning.

@@ -2,6 +2,7 @@
 //! Quantities of a slot: what a frame estimates of a pad, and what the plant alone knows. This is
 //! the one list of them; names in scenes, columns of tables, units and truths all come from it.
 
+use crate::format::Word;
 use crate::truth::Truth;
 
 /// Who knows a quantity.
@@ -26,6 +27,7 @@ struct Entry {
     quantity: Quantity,
     name: &'static str,
     unit: &'static str,
+    says: &'static str,
     source: Source,
     truth: fn(&Truth) -> f64,
 }
@@ -53,9 +55,14 @@ macro_rules! quantities {
             quantity: Quantity::$variant,
             name: $name,
             unit: $unit,
+            says: concat!($($doc),+),
             source: Source::$source,
             truth: $truth,
         },)+];
+
+        impl Word for Quantity {
+            const WORDS: &[(&str, Quantity)] = &[$(($name, Quantity::$variant),)+];
+        }
     };
 }
 
@@ -70,8 +77,7 @@ quantities! {
     XMm: "x_mm", "mm", Frame, |truth| truth.x_mm;
     /// Position along y, mm above the sheet's centre.
     YMm: "y_mm", "mm", Frame, |truth| truth.y_mm;
-    /// [`XMm`](Quantity::XMm) and [`YMm`](Quantity::YMm) as a vector: it has no column and no
-    /// single value.
+    /// Position along x and y as a vector: it has no column and no single value.
     PositionMm: "position_mm", "mm", Pair, |_| f64::NAN;
     /// Capacitance between pad and sheet, pF.
     CapacitancePf: "capacitance_pf", "pF", Frame, |truth| truth.capacitance_pf;
@@ -134,6 +140,23 @@ impl Quantity {
     /// Its unit: `N`; `1` for a ratio.
     pub fn unit(self) -> &'static str {
         self.entry().unit
+    }
+
+    /// What it is, in a sentence.
+    pub fn says(self) -> &'static str {
+        self.entry().says.trim()
+    }
+
+    /// Who knows it: `frame` what a frame estimates and the plant knows, `plant` what the plant alone knows, `scene` what
+    /// the scene sets, `game` what the host's game knows, `clock` the time.
+    pub fn source(self) -> &'static str {
+        match self.entry().source {
+            Source::Clock => "clock",
+            Source::Frame | Source::Pair => "frame",
+            Source::Plant => "plant",
+            Source::Scene => "scene",
+            Source::Game => "game",
+        }
     }
 
     /// Whether a frame estimates it.

@@ -1,95 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A scene, read and checked.
 //!
-//! ```toml
-//! title = "Force over position"
-//! summary = "One pad rastered over the sheet"
-//! profile = "standard"            # the core's; default "standard"
-//! window_samples = 5000           # of the core's window, where the profile's is too short for the haptic frequency
-//! settle_samples = 390            # before the window, where the profile's slots are too long
-//! seed = 1                        # of noise and mismatch; default 1
-//! figure = "fig3"                 # fig3 | fig4 | fig6 | fig7 | fig9 | fig13 | fig15 | hockey; how a report draws it
-//! record = ["frames", "report"]   # frames | report | capture | waves
-//! dwell_slots = 1                 # slots of each pad at each point of a sweep, or
-//! duration_s = 2.0                # time, where pads move and nothing is swept
-//! uncouple = true                 # the host takes out of measurements what [coupling] did to them
-//! error_budget_percent = 0.1      # chooses the levels that the effects' tables leave open; see `budget`
-//!
-//! [[pad]]                         # 1 to 16; selected for one slot each in turn
-//! name = "mallet"
-//! position_mm = [0, 0]            # see `trajectory`
-//! load_g = 50                     # see `stimulus`; also haptic_v_rms, capacitance_pf; with
-//!                                 # [hand] push_x_n, push_y_n; with [halves] eccentricity_mm
-//!
-//! [device]                        # width_mm, height_mm, pad_diameter_mm, mu, gravity_m_s2
-//! [sheet]                         # effects, each with its `rung`; see `effects`
-//! [supply]
-//! [charge]
-//! [gap]
-//! [halves]
-//! [hand]
-//! [release]
-//! [friction]
-//! [temperature]
-//! [shunt]
-//! [coupling]
-//! [switching]
-//! [carrier]
-//! [sensor]
-//!
-//! [control]                       # see `control`
-//! [wall]                          # see `wall`
-//! [arena]                         # see `arena`
-//!
-//! [[case]]                        # variants of the scene, run one after the other; a single "main" where there is none
-//! name = "500-ohm"
-//! set = { "sheet.terminal_ohm" = 500 }
-//!
-//! [calibration]                   # the device as it was calibrated, where it has changed since
-//! set = { "device.mu" = 0.12 }    # keys as in a case's `set`; false takes one away
-//!
-//! [[criterion]]                   # see `criterion`
-//! ```
+//! Its keys are declared beside what reads them; `reference::SECTIONS` lists them all.
 
 use crate::case::Case;
 use crate::criterion::Criterion;
 use crate::error::SceneError;
 use crate::format::{self, Table};
-use crate::variant::{calibrated, is_whole, variants};
-
-/// How a report draws the scene, after the paper's figures.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Figure {
-    /// The sensor's sum over pad position.
-    Fig3,
-    /// The sensor's sum over load and haptic voltage.
-    Fig4,
-    /// Friction and eq. 8 over the haptic voltage.
-    Fig6,
-    /// Friction, eq. 8 and the pad's voltage over time.
-    Fig7,
-    /// The force beside its target.
-    Fig9,
-    /// The direction that is read over the eccentricity of the push.
-    Fig13,
-    /// A pad at a wall: its place, the hand's force and the wall's over time.
-    Fig15,
-    /// Paths of several pads.
-    Hockey,
-}
-
-/// Something that running a scene writes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Record {
-    /// One row per finished slot.
-    Frames,
-    /// A report with figures.
-    Report,
-    /// The ADC's samples.
-    Capture,
-    /// Waveforms of the core's signals.
-    Waves,
-}
+use crate::head::{self, Figure, Record, is_whole};
+use crate::reference;
+use crate::variant::{calibrated, variants};
 
 /// A scene of one or more cases.
 ///
@@ -184,35 +104,22 @@ impl Scene {
             case.calibrated = Some(Box::new(then_case));
         }
         tree.refuse_unknown()?;
+        debug_assert_eq!(reference::undeclared(tree.asked()), Vec::<String>::new());
         Ok(case)
     }
 
     fn read_head(root: &Table, file: &str, cases: &[String]) -> Result<Scene, SceneError> {
-        let figures = [
-            ("fig3", Figure::Fig3),
-            ("fig4", Figure::Fig4),
-            ("fig6", Figure::Fig6),
-            ("fig7", Figure::Fig7),
-            ("fig9", Figure::Fig9),
-            ("fig13", Figure::Fig13),
-            ("fig15", Figure::Fig15),
-            ("hockey", Figure::Hockey),
-        ];
-        let figure = root.choice("figure", &figures.map(|(name, _)| name))?;
         Ok(Scene {
             name: stem(file).to_string(),
             file: file.to_string(),
-            title: root.require("title", "text", root.text("title")?)?,
-            summary: root.text("summary")?.unwrap_or_default(),
-            profile: root.text("profile")?.unwrap_or_else(|| "standard".to_string()),
-            window_samples: root.whole("window_samples", 1, 1 << 20)?,
-            settle_samples: root.whole("settle_samples", 0, 1 << 20)?,
-            seed: root.whole("seed", 0, i64::MAX as u64)?.unwrap_or(1),
-            figure: figures
-                .into_iter()
-                .find(|(name, _)| Some(*name) == figure)
-                .map(|(_, figure)| figure),
-            record: read_record(root)?,
+            title: root.get(&head::TITLE)?,
+            summary: root.get(&head::SUMMARY)?,
+            profile: root.get(&head::PROFILE)?,
+            window_samples: root.get(&head::WINDOW_SAMPLES)?,
+            settle_samples: root.get(&head::SETTLE_SAMPLES)?,
+            seed: root.get(&head::SEED)?,
+            figure: root.get(&head::FIGURE)?,
+            record: head::record(root)?,
             cases: Vec::new(),
             criteria: root
                 .tables("criterion")?
@@ -221,23 +128,6 @@ impl Scene {
                 .collect::<Result<_, _>>()?,
         })
     }
-}
-
-fn read_record(root: &Table) -> Result<Vec<Record>, SceneError> {
-    let Some(words) = root.texts("record")? else {
-        return Ok(vec![Record::Frames, Record::Report]);
-    };
-    let record = |word: &String| match word.as_str() {
-        "frames" => Ok(Record::Frames),
-        "report" => Ok(Record::Report),
-        "capture" => Ok(Record::Capture),
-        "waves" => Ok(Record::Waves),
-        other => Err(root.error(
-            "record",
-            format!("expected \"frames\", \"report\", \"capture\" or \"waves\", got {other:?}"),
-        )),
-    };
-    words.iter().map(record).collect()
 }
 
 fn override_all(root: &mut Table, overrides: &[(String, String)]) -> Result<(), SceneError> {
@@ -249,4 +139,63 @@ fn override_all(root: &mut Table, overrides: &[(String, String)]) -> Result<(), 
 fn stem(file: &str) -> &str {
     let base = file.rsplit(['/', '\\']).next().unwrap_or(file);
     base.strip_suffix(".toml").unwrap_or(base)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use super::*;
+    use crate::gallery;
+
+    /// Tables and keys that no bundled scene has.
+    const OTHERS: [&str; 3] = [
+        "title = \"t\"\n[calibration]\nset = { \"device.mu\" = 0.1 }\n[sheet]\nslope_percent = [1, 0]\n\
+         [[sheet.patch]]\ncentre_mm = [0, 0]\nsize_mm = [9, 9]\nohm_per_square = 9\n[device]\n\
+         [temperature]\ntempco_ppm_per_k = 1\nspring_percent_per_k = 1\n[gap]\n\
+         [[pad]]\nposition_mm = { raster = { nx = 2, ny = 2 } }\n\
+         load_g = { sweep = { from = 1, to = 2, points = 3 } }\n[release]\n[friction]\n",
+        "title = \"t\"\nduration_s = 1\n[charge]\nshare = 0.1\ntime_constant_s = 1\n[halves]\nstrips = 4\n[gap]\n\
+         [[pad]]\nposition_mm = { circle = { radius_mm = 9, period_s = 1 } }\n\
+         load_g = { sine = { amplitude = 1, mean = 2, frequency_hz = 1 } }\n",
+        "title = \"t\"\nduration_s = 1\n[[pad]]\n\
+         position_mm = { lissajous = { amplitude_mm = [1, 2], frequency_hz = [1, 2] } }\n[sensor]\n\
+         haptic_leakage = true\nhaptic_leakage_of_others = true\nnoise_density_na_per_rthz = 1\n",
+    ];
+
+    /// Every key that reading a scene asks for.
+    fn asked(text: &str) -> Vec<String> {
+        let root = format::parse(text).unwrap();
+        let variants = variants(&root).unwrap();
+        let names: Vec<_> = variants.iter().map(|variant| variant.name.clone()).collect();
+        Scene::read_head(&root, "s.toml", &names).unwrap();
+        let mut asked = Vec::new();
+        for variant in variants {
+            let mut tree = root.clone();
+            for (key, node) in variant.set {
+                format::apply(&mut tree, &key, node).unwrap();
+            }
+            Scene::read_case(&tree, &variant.name).unwrap();
+            asked.extend(tree.asked());
+        }
+        asked
+    }
+
+    #[test]
+    fn every_key_that_is_read_is_declared_and_the_other_way_round() {
+        let texts = gallery::all().iter().map(|(_, text)| *text).chain(OTHERS);
+        let asked: BTreeSet<String> = texts.flat_map(asked).collect();
+        let unknown = reference::undeclared(asked.iter().cloned().collect());
+        assert!(unknown.is_empty(), "read and not declared: {unknown:?}");
+        let read: BTreeSet<_> = asked
+            .iter()
+            .filter_map(|path| reference::key(path))
+            .map(|(section, key)| (section.path, key.name))
+            .collect();
+        let declared = reference::SECTIONS
+            .iter()
+            .flat_map(|section| section.keys().map(|key| (section.path, key.name)));
+        let unread: Vec<_> = declared.filter(|key| !read.contains(key)).collect();
+        assert!(unread.is_empty(), "declared and not read: {unread:?}");
+    }
 }

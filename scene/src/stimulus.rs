@@ -13,10 +13,37 @@
 use std::f64::consts::TAU;
 
 use crate::error::SceneError;
-use crate::format::{Limits, Table, Value};
+use crate::format::{Key, KeyInfo, Kind, Limits, Otherwise, Read, Table, Value, keys};
 
 /// The most points of one sweep.
 const MOST_POINTS: u64 = 1_000_000;
+
+keys! { FORM_KEYS:
+    /// Values of a sweep, one after the other.
+    SWEEP: Option<Vec<f64>> = Key::numbers("sweep", Limits::ANY);
+    /// Pairs of time in s and value, linear between them and held outside.
+    TIMELINE: Option<Vec<[f64; 2]>> = Key::pairs("timeline");
+}
+
+keys! { RANGE_KEYS:
+    /// The first value of a sweep.
+    FROM: f64 = Key::number("from", Limits::ANY).required("a number");
+    /// The last value of a sweep.
+    TO: f64 = Key::number("to", Limits::ANY).required("a number");
+    /// The number of values of a sweep, which are evenly spaced.
+    POINTS: u64 = Key::whole("points", 2, MOST_POINTS).required("an integer");
+}
+
+keys! { SINE_KEYS:
+    /// The mean of a sine.
+    MEAN: f64 = Key::number("mean", Limits::ANY).or(0.0);
+    /// The amplitude of a sine.
+    AMPLITUDE: f64 = Key::number("amplitude", Limits::ANY).required("a number");
+    /// The frequency of a sine.
+    FREQUENCY_HZ: f64 = Key::number("frequency_hz", Limits::within(1e-6, 1e6)).required("a number above 0");
+    /// Where in its turn a sine begins.
+    PHASE_TURNS: f64 = Key::number("phase_turns", Limits::within(-1e6, 1e6)).or(0.0);
+}
 
 /// A moment at which something may step: just before, or with the step made.
 #[derive(Clone, Copy, Debug)]
@@ -65,26 +92,40 @@ pub(crate) enum Stimulus {
     Sine { mean: f64, amplitude: f64, frequency_hz: f64, phase_turns: f64 },
 }
 
-impl Stimulus {
-    /// Reads `key`; every value it can take must lie in `limits`.
-    pub fn read(
-        table: &Table,
-        key: &'static str,
-        limits: Limits,
-    ) -> Result<Option<Stimulus>, SceneError> {
-        match table.get(key).map(|node| &node.value) {
+impl Read for Stimulus {
+    /// Every value that it can take must lie in the key's limits.
+    fn read(table: &Table, key: &KeyInfo) -> Result<Option<Stimulus>, SceneError> {
+        match table.node(key.name).map(|node| &node.value) {
             None => Ok(None),
-            Some(Value::Table(form)) => Stimulus::read_form(form, limits).map(Some),
-            Some(_) => Ok(table.number(key, limits)?.map(Stimulus::Constant)),
+            Some(Value::Table(form)) => Stimulus::read_form(form, key.limits()).map(Some),
+            Some(_) => Ok(table.number(key.name, key.limits())?.map(Stimulus::Constant)),
         }
     }
 
+    fn absent(otherwise: Otherwise) -> Option<Stimulus> {
+        f64::absent(otherwise).map(Stimulus::Constant)
+    }
+}
+
+impl Key<Option<Stimulus>> {
+    pub const fn stimulus(name: &'static str, limits: Limits) -> Self {
+        Key::new(name, Kind::Stimulus(limits))
+    }
+
+    /// One that is not swept: see [`over_time`](crate::pad::over_time).
+    pub const fn over_time(name: &'static str, limits: Limits) -> Self {
+        Key::new(name, Kind::OverTime(limits))
+    }
+
+    pub const fn or(self, usual: f64) -> Key<Stimulus> {
+        self.otherwise(Otherwise::Number(usual))
+    }
+}
+
+impl Stimulus {
     fn read_form(form: &Table, limits: Limits) -> Result<Stimulus, SceneError> {
-        let all = (
-            Stimulus::read_sweep(form, limits)?,
-            form.pairs("timeline")?,
-            Stimulus::read_sine(form)?,
-        );
+        let all =
+            (Stimulus::read_sweep(form, limits)?, form.get(&TIMELINE)?, Stimulus::read_sine(form)?);
         let (key, stimulus) = match all {
             (Some(sweep), None, None) => ("sweep", Stimulus::Sweep(sweep)),
             (None, Some(points), None) => {
@@ -104,29 +145,22 @@ impl Stimulus {
     }
 
     fn read_sweep(form: &Table, limits: Limits) -> Result<Option<Vec<f64>>, SceneError> {
-        let Some(Value::Table(range)) = form.get("sweep").map(|node| &node.value) else {
-            return form.numbers("sweep", limits);
+        let Some(Value::Table(range)) = form.node("sweep").map(|node| &node.value) else {
+            return form.get(&SWEEP.within(limits));
         };
-        let from = range.require("from", "a number", range.number("from", limits)?)?;
-        let to = range.require("to", "a number", range.number("to", limits)?)?;
-        let points =
-            range.require("points", "an integer", range.whole("points", 2, MOST_POINTS)?)?;
+        let (from, to) = (range.get(&FROM.within(limits))?, range.get(&TO.within(limits))?);
+        let points = range.get(&POINTS)?;
         let step = (to - from) / (points - 1) as f64;
         Ok(Some((0..points).map(|n| from + step * n as f64).collect()))
     }
 
     fn read_sine(form: &Table) -> Result<Option<Stimulus>, SceneError> {
         let Some(sine) = form.table("sine")? else { return Ok(None) };
-        let frequency_hz = sine.number("frequency_hz", Limits::within(1e-6, 1e6))?;
         Ok(Some(Stimulus::Sine {
-            mean: sine.number_or("mean", Limits::ANY, 0.0)?,
-            amplitude: sine.require(
-                "amplitude",
-                "a number",
-                sine.number("amplitude", Limits::ANY)?,
-            )?,
-            frequency_hz: sine.require("frequency_hz", "a number above 0", frequency_hz)?,
-            phase_turns: sine.number_or("phase_turns", Limits::within(-1e6, 1e6), 0.0)?,
+            mean: sine.get(&MEAN)?,
+            amplitude: sine.get(&AMPLITUDE)?,
+            frequency_hz: sine.get(&FREQUENCY_HZ)?,
+            phase_turns: sine.get(&PHASE_TURNS)?,
         }))
     }
 

@@ -1,17 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Where the terminals of `[sheet]` are: on the sheet's edge, mm from its middle.
-//!
-//! ```toml
-//! [sheet]
-//! terminals_mm = [[-430, 250], [-430, -250], [430, 0]]   # 3 to 16 places, or
-//! terminals = 6                                          # the corners, 4, and the edges' middles, 6
-//! middles = "long"                                       # of the bottom and top edge, or "short"
-//! terminal_5_mm = [100, -250]                            # or where these say
-//! ```
 
 use crate::error::SceneError;
 use crate::few::Few;
-use crate::format::{Limits, Table};
+use crate::format::{Key, Limits, Table, keys};
 
 pub use hapticore_sheet::{LEAST_TERMINALS, MOST_TERMINALS};
 
@@ -23,6 +15,20 @@ pub(crate) const MOST_CHANNELS: usize = MOST_TERMINALS + VOLTAGES;
 
 /// One value per terminal, held in place: no slot or sample allocates.
 pub type PerTerminal<T> = Few<T, MOST_TERMINALS>;
+
+keys! { KEYS:
+    /// Places of 3 to 16 terminals on the sheet's edge, from its middle.
+    TERMINALS_MM: Option<Vec<[f64; 2]>> = Key::pairs("terminals_mm").usually("the corners and the middles of two edges");
+    /// Number of terminals: 4, the corners, or 6, with the middles of two edges.
+    TERMINALS: Option<u64> =
+        Key::whole("terminals", LEAST_TERMINALS as u64, MOST_TERMINALS as u64).usually("6");
+    /// Terminals 5 and 6 are in the middles of the bottom and the top edge (`long`) or of the left and the right one.
+    MIDDLES: &'static str = Key::choice("middles", || vec!["long", "short"]).or("long");
+    /// Place of terminal 5 on the sheet's edge.
+    TERMINAL_5_MM: Option<[f64; 2]> = Key::pair("terminal_5_mm", Limits::ANY).usually("as `middles` says");
+    /// Place of terminal 6 on the sheet's edge.
+    TERMINAL_6_MM: Option<[f64; 2]> = Key::pair("terminal_6_mm", Limits::ANY).usually("as `middles` says");
+}
 
 /// Keys that say where terminals are in another way than `terminals_mm`.
 const OTHERS: [&str; 4] = ["terminals", "middles", "terminal_5_mm", "terminal_6_mm"];
@@ -39,16 +45,14 @@ pub(crate) fn terminals_mm(root: &Table, size_mm: [f64; 2]) -> Result<Vec<[f64; 
 
 /// The same from `[sheet]`.
 fn read(table: &Table, edge: &Edge) -> Result<Vec<[f64; 2]>, SceneError> {
-    let count = table
-        .whole("terminals", LEAST_TERMINALS as u64, MOST_TERMINALS as u64)?
-        .map(|count| count as usize);
-    let middles = table.choice("middles", &["long", "short"])?;
-    let fifth = edge.place(table, "terminal_5_mm")?;
-    let sixth = edge.place(table, "terminal_6_mm")?;
-    if let Some(places) = table.pairs("terminals_mm")? {
+    let count = table.get(&TERMINALS)?.map(|count| count as usize);
+    let middles = table.get(&MIDDLES)?;
+    let fifth = edge.place(table, &TERMINAL_5_MM)?;
+    let sixth = edge.place(table, &TERMINAL_6_MM)?;
+    if let Some(places) = table.get(&TERMINALS_MM)? {
         return listed(table, edge, &places);
     }
-    let mut places = edge.usual(middles.unwrap_or("long"));
+    let mut places = edge.usual(middles);
     [fifth, sixth]
         .into_iter()
         .zip(&mut places[4..])
@@ -76,7 +80,7 @@ fn read(table: &Table, edge: &Edge) -> Result<Vec<[f64; 2]>, SceneError> {
 /// The places that `terminals_mm` lists.
 fn listed(table: &Table, edge: &Edge, places: &[[f64; 2]]) -> Result<Vec<[f64; 2]>, SceneError> {
     let fail = |message: String| Err(table.error("terminals_mm", message));
-    if let Some(other) = OTHERS.into_iter().find(|key| table.get(key).is_some()) {
+    if let Some(other) = OTHERS.into_iter().find(|key| table.node(key).is_some()) {
         return Err(
             table.error(other, "expected none, since terminals_mm says where all terminals are")
         );
@@ -133,14 +137,21 @@ impl Edge {
     }
 
     /// A place on the edge between corners.
-    fn place(&self, table: &Table, key: &'static str) -> Result<Option<[f64; 2]>, SceneError> {
-        let Some(place) = table.pair(key, Limits::ANY)? else { return Ok(None) };
+    fn place(
+        &self,
+        table: &Table,
+        key: &Key<Option<[f64; 2]>>,
+    ) -> Result<Option<[f64; 2]>, SceneError> {
+        let Some(place) = table.get(key)? else { return Ok(None) };
         let [x, y] = self.half;
         match self.hold(place).filter(|[at_x, at_y]| at_x.abs() < x || at_y.abs() < y) {
             Some(place) => Ok(Some(place)),
             None => {
                 let expected = "expected a place on the sheet's edge between corners";
-                Err(table.error(key, format!("{expected}, x = ±{x} or y = ±{y}, got {place:?}")))
+                Err(table.error(
+                    key.about.name,
+                    format!("{expected}, x = ±{x} or y = ±{y}, got {place:?}"),
+                ))
             }
         }
     }

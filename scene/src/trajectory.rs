@@ -17,7 +17,7 @@ use std::f64::consts::TAU;
 
 use crate::device::Device;
 use crate::error::SceneError;
-use crate::format::{Limits, Table, Value};
+use crate::format::{Key, Limits, Table, Value, keys};
 use crate::stimulus::{Moment, Timeline, next_multiple};
 
 type Point = [f64; 2];
@@ -28,9 +28,70 @@ const TURNS: Limits = Limits::within(-1e6, 1e6);
 /// Rounding of a trajectory that reaches just to the edge is not a pad over the edge.
 pub(crate) const SLACK_MM: f64 = 1e-9;
 
+keys! { KEYS:
+    /// Where the pad's centre is, from the sheet's centre, x right and y up: two numbers, or one of the forms below.
+    POSITION_MM: [f64; 2] = Key::position("position_mm").required("[x, y]");
+    /// The pad may reach over the sheet's edge, where its slots are flagged.
+    OVER_EDGE: bool = Key::flag("over_edge");
+}
+
+keys! { FORM_KEYS:
+    /// Places at which the pad is put, point by point.
+    SWEEP: Option<Vec<Point>> = Key::pairs("sweep");
+}
+
+keys! { RASTER_KEYS:
+    /// Columns of the grid.
+    NX: u64 = Key::whole("nx", 1, 1000).required("an integer");
+    /// Rows of the grid.
+    NY: u64 = Key::whole("ny", 1, 1000).required("an integer");
+    /// How far the outermost places are off the edges.
+    MARGIN_MM: Option<f64> = Key::number("margin_mm", Limits::within(1e-9, 1e4)).usually("the pad's radius");
+}
+
+keys! { LINE_KEYS:
+    /// Where the line begins.
+    FROM_MM: Point = Key::pair("from_mm", Limits::ANY).required("[x, y]");
+    /// Where the line turns back.
+    TO_MM: Point = Key::pair("to_mm", Limits::ANY).required("[x, y]");
+}
+
+keys! { PERIOD_KEYS:
+    /// Time for the way there and back, or once round.
+    PERIOD_S: f64 = Key::number("period_s", Limits::within(1e-6, 1e9)).required("a number from 1e-6 to 1e9");
+}
+
+keys! { CIRCLE_KEYS:
+    /// Radius of the circle.
+    RADIUS_MM: f64 = Key::number("radius_mm", Limits::within(1e-9, 1e4)).required("a number above 0");
+    /// Where on the circle the pad begins: 0 is right of its centre.
+    PHASE_TURN: f64 = Key::number("phase_turns", TURNS).or(0.0);
+}
+
+keys! { LISSAJOUS_KEYS:
+    /// Amplitudes along x and y.
+    AMPLITUDE_MM: Point = Key::pair("amplitude_mm", Limits::ANY).required("two numbers");
+    /// Frequencies along x and y.
+    FREQUENCY_HZ: Point = Key::pair("frequency_hz", Limits::within(0.0, 1e6)).required("two numbers");
+    /// Where in their turns the motions along x and y begin.
+    PHASE_TURNS: Point = Key::pair("phase_turns", TURNS).or(&[0.0; 2]);
+}
+
+keys! { CENTRE_KEYS:
+    /// The centre of the motion.
+    CENTRE_MM: Point = Key::pair("centre_mm", Limits::ANY).or(&[0.0; 2]);
+}
+
+keys! { TIMELINE_KEYS:
+    /// Pairs of time in s and place along x, linear between them and held outside.
+    X_MM: Option<Vec<Point>> = Key::pairs("x_mm").usually("0 throughout");
+    /// The same along y.
+    Y_MM: Option<Vec<Point>> = Key::pairs("y_mm").usually("0 throughout");
+}
+
 /// How far from the sheet's centre a pad's centre may be, mm.
 pub(crate) fn reach_mm(pad: &Table, device: &Device) -> Result<[f64; 2], SceneError> {
-    Ok(match pad.flag("over_edge")? {
+    Ok(match pad.get(&OVER_EDGE)? {
         true => [device.width_mm, device.height_mm].map(|size| size / 2.0),
         false => device.reach_mm(),
     })
@@ -64,12 +125,10 @@ impl Trajectory {
     /// Reads `position_mm`; the pad must stay wholly on the sheet, but with `over_edge = true` its
     /// centre alone.
     pub fn read(pad: &Table, device: &Device) -> Result<Trajectory, SceneError> {
-        const KEY: &str = "position_mm";
-        let trajectory = match pad.get(KEY).map(|node| &node.value) {
+        const KEY: &str = POSITION_MM.about.name;
+        let trajectory = match pad.node(KEY).map(|node| &node.value) {
             Some(Value::Table(form)) => Trajectory::read_form(form, device)?,
-            _ => {
-                Trajectory::Points(vec![pad.require(KEY, "[x, y]", pad.pair(KEY, Limits::ANY)?)?])
-            }
+            _ => Trajectory::Points(vec![pad.get(&POSITION_MM)?]),
         };
         let reach = reach_mm(pad, device)?;
         match trajectory.extremes().into_iter().find(|place| !is_within(*place, reach)) {
@@ -85,7 +144,7 @@ impl Trajectory {
     }
 
     fn read_form(form: &Table, device: &Device) -> Result<Trajectory, SceneError> {
-        let points = form.pairs("sweep")?.map(Trajectory::Points);
+        let points = form.get(&SWEEP)?.map(Trajectory::Points);
         let raster = form.table("raster")?.map(|raster| read_raster(raster, device)).transpose()?;
         let line = form.table("line")?.map(read_line).transpose()?;
         let circle = form.table("circle")?.map(read_circle).transpose()?;
@@ -174,56 +233,42 @@ pub(crate) fn raster(nx: usize, ny: usize, margin_mm: f64, device: &Device) -> V
 }
 
 fn read_raster(table: &Table, device: &Device) -> Result<Trajectory, SceneError> {
-    let count = |key| table.require(key, "an integer", table.whole(key, 1, 1000)?);
-    let margin =
-        table.number_or("margin_mm", Limits::within(1e-9, 1e4), device.pad_diameter_mm / 2.0)?;
-    Ok(Trajectory::Points(raster(count("nx")? as usize, count("ny")? as usize, margin, device)))
+    let margin_mm = table.get(&MARGIN_MM.or(device.pad_diameter_mm / 2.0))?;
+    let [nx, ny] = [table.get(&NX)?, table.get(&NY)?].map(|count| count as usize);
+    Ok(Trajectory::Points(raster(nx, ny, margin_mm, device)))
 }
 
 fn read_line(table: &Table) -> Result<Trajectory, SceneError> {
-    let pair = |key| table.require(key, "[x, y]", table.pair(key, Limits::ANY)?);
-    Ok(Trajectory::Line { from: pair("from_mm")?, to: pair("to_mm")?, period_s: period(table)? })
+    let (from, to) = (table.get(&FROM_MM)?, table.get(&TO_MM)?);
+    Ok(Trajectory::Line { from, to, period_s: table.get(&PERIOD_S)? })
 }
 
 fn read_timeline(table: &Table) -> Result<Trajectory, SceneError> {
-    let axis = |key| {
-        let points = table.pairs(key)?.unwrap_or_else(|| vec![[0.0; 2]]);
-        Timeline::read(table, key, points)
+    let axis = |key: &Key<Option<Vec<Point>>>| {
+        let points = table.get(key)?.unwrap_or_else(|| vec![[0.0; 2]]);
+        Timeline::read(table, key.about.name, points)
     };
-    Ok(Trajectory::Timeline(Box::new([axis("x_mm")?, axis("y_mm")?])))
+    Ok(Trajectory::Timeline(Box::new([axis(&X_MM)?, axis(&Y_MM)?])))
 }
 
 fn read_circle(table: &Table) -> Result<Trajectory, SceneError> {
-    let radius = table.require(
-        "radius_mm",
-        "a number above 0",
-        table.number("radius_mm", Limits::within(1e-9, 1e4))?,
-    )?;
-    let turns = table.number_or("phase_turns", TURNS, 0.0)?;
+    let radius = table.get(&RADIUS_MM)?;
+    let turns = table.get(&PHASE_TURN)?;
     Ok(Trajectory::Swing {
-        centre: table.pair("centre_mm", Limits::ANY)?.unwrap_or_default(),
+        centre: table.get(&CENTRE_MM)?,
         amplitude: [radius; 2],
-        frequency_hz: [1.0 / period(table)?; 2],
+        frequency_hz: [1.0 / table.get(&PERIOD_S)?; 2],
         phase_turns: [turns + 0.25, turns],
     })
 }
 
 fn read_lissajous(table: &Table) -> Result<Trajectory, SceneError> {
-    let pair = |key, limits| table.require(key, "two numbers", table.pair(key, limits)?);
     Ok(Trajectory::Swing {
-        centre: table.pair("centre_mm", Limits::ANY)?.unwrap_or_default(),
-        amplitude: pair("amplitude_mm", Limits::ANY)?,
-        frequency_hz: pair("frequency_hz", Limits::within(0.0, 1e6))?,
-        phase_turns: table.pair("phase_turns", TURNS)?.unwrap_or_default(),
+        centre: table.get(&CENTRE_MM)?,
+        amplitude: table.get(&AMPLITUDE_MM)?,
+        frequency_hz: table.get(&FREQUENCY_HZ)?,
+        phase_turns: table.get(&PHASE_TURNS)?,
     })
-}
-
-fn period(table: &Table) -> Result<f64, SceneError> {
-    table.require(
-        "period_s",
-        "a number from 1e-6 to 1e9",
-        table.number("period_s", Limits::within(1e-6, 1e9))?,
-    )
 }
 
 #[cfg(test)]

@@ -3,28 +3,20 @@
 //! and `[calibration]`, the keys that were different when the device was calibrated.
 
 use crate::error::SceneError;
-use crate::format::{self, Node, Table};
+use crate::format::{self, Key, Node, Table, keys};
+use crate::head::is_whole;
 
 /// The most cases of a scene: each is a copy of the whole scene.
 const MOST_CASES: usize = 256;
 
-/// Keys that belong to the scene as a whole, so that a case cannot set them.
-const WHOLE: [&str; 10] = [
-    "title",
-    "summary",
-    "profile",
-    "window_samples",
-    "settle_samples",
-    "seed",
-    "figure",
-    "record",
-    "case",
-    "criterion",
-];
+keys! { KEYS:
+    /// The case's name.
+    NAME: String = Key::text("name").required("text");
+}
 
-/// Whether a dotted key belongs to the scene as a whole.
-pub(crate) fn is_whole(key: &str) -> bool {
-    WHOLE.contains(&key.split('.').next().unwrap_or_default())
+keys! { SET_KEYS:
+    /// Dotted keys and the values that they get: `{ "sheet.terminal_ohm" = 500 }`; `false` takes a key away.
+    SET: () = Key::keys("set");
 }
 
 /// A case before it is read: its name and what it sets.
@@ -61,7 +53,7 @@ pub(crate) fn variants(root: &Table) -> Result<Vec<Variant>, SceneError> {
 
 impl Variant {
     fn read(table: &Table) -> Result<Variant, SceneError> {
-        let name = table.require("name", "text", table.text("name")?)?;
+        let name = table.get(&NAME)?;
         Ok(Variant { name, set: read_set(table)? })
     }
 }
@@ -69,7 +61,7 @@ impl Variant {
 /// The keys that `set` of a case or of `[calibration]` names, each with its value.
 fn read_set(table: &Table) -> Result<Vec<(String, Node)>, SceneError> {
     let mut set = Vec::new();
-    for (key, node) in table.table("set")?.into_iter().flat_map(Table::all) {
+    for (key, node) in table.table(SET.about.name)?.into_iter().flat_map(Table::all) {
         if is_whole(key) {
             let message = format!("{key} belongs to the whole scene, a case cannot set it");
             return Err(table.error("set", message));

@@ -1,30 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `[wall]`: virtual walls that split pads meet, in the core that controls their force.
 //!
-//! ```toml
-//! [halves]
-//! senses = "each"            # the core reads the direction of the push from the parts of a pad
-//!
-//! [control]                  # the wall gives the force that the controller aims at
-//!
-//! [wall]
-//! rule = "sequential"        # sequential | direct (eq. 12) | never (eq. 11): when it lets go
-//! surface_mm = 0             # along x; may move: see `stimulus`
-//! inside = "left"            # left | right of its surface
-//! surface_y_mm = 0           # with halves.quadrants: of the wall along y, which may move, too
-//! inside_y = "below"         # below | above its surface
-//! stiffness_n_per_mm = 0.5
-//! force_n = 1                # the most that it gives
-//! play_mm = 0.2              # way back after which the hand has turned, whatever the push reads
-//! uncalibrated = false       # else the direction's offset is taken out: at the factory, then in free air
-//! ```
-//!
 //! The force is k_w·depth, so that eqs. 11 and 12, whose voltage goes with the depth, need a
 //! `control.curve` that makes it of the force: `linear`. Source: paper, eqs. 10 to 12; docs/physics.md
 //! §6.
 
+use crate::effects::split_electrode::{QUADRANTS, SENSES};
 use crate::error::SceneError;
-use crate::format::{Limits, Table};
+use crate::format::{Key, Limits, Table, Word, keys};
 use crate::pad::over_time;
 use crate::stimulus::{Moment, Stimulus};
 
@@ -39,11 +22,35 @@ pub enum WallRule {
     Never,
 }
 
-const RULES: [(&str, WallRule); 3] = [
-    ("sequential", WallRule::Sequential),
-    ("direct", WallRule::Direct),
-    ("never", WallRule::Never),
-];
+impl Word for WallRule {
+    const WORDS: &[(&str, WallRule)] = &[
+        ("sequential", WallRule::Sequential),
+        ("direct", WallRule::Direct),
+        ("never", WallRule::Never),
+    ];
+}
+
+keys! { KEYS:
+    /// When the wall lets a pad go: `sequential` by a test on the push and by play of the position, `direct` by eq. 12,
+    /// `never` as eq. 11.
+    RULE: WallRule = Key::words("rule").or_word("sequential");
+    /// Where the wall begins along x.
+    SURFACE_MM: Option<Stimulus> = Key::over_time("surface_mm", Limits::within(-1e4, 1e4)).usually("0");
+    /// On which side of `surface_mm` the wall's inside is.
+    INSIDE: &'static str = Key::choice("inside", || vec!["left", "right"]).or("left");
+    /// Where the wall along y begins, with `halves.quadrants`.
+    SURFACE_Y_MM: Option<Stimulus> = Key::over_time("surface_y_mm", Limits::within(-1e4, 1e4)).usually("0");
+    /// On which side of `surface_y_mm` the inside of the wall along y is, with `halves.quadrants`.
+    INSIDE_Y: &'static str = Key::choice("inside_y", || vec!["below", "above"]).or("below");
+    /// Force of the wall for each millimetre of depth.
+    STIFFNESS_N_PER_MM: f64 = Key::number("stiffness_n_per_mm", Limits::within(0.0, 15.0)).or(0.5);
+    /// The most that the wall gives.
+    FORCE_N: f64 = Key::number("force_n", Limits::within(0.0, 100.0)).or(1.0);
+    /// Way back of the pad after which the hand has turned, whatever the push reads.
+    PLAY_MM: Option<f64> = Key::number("play_mm", Limits::within(0.001, 10.0)).usually("the profile's, 0.2");
+    /// The direction keeps its offset, which is otherwise taken out at the factory and then in free air.
+    UNCALIBRATED: bool = Key::flag("uncalibrated");
+}
 
 /// Virtual walls as a scene asks for them.
 ///
@@ -89,17 +96,14 @@ impl WallAlongY {
     /// The table's, of pads that are split in quadrants.
     fn read(table: &Table, quadrants: bool) -> Result<Option<WallAlongY>, SceneError> {
         if !quadrants {
-            let keys = ["surface_y_mm", "inside_y"];
-            return match keys.into_iter().find(|key| table.get(key).is_some()) {
+            let keys = [SURFACE_Y_MM.about.name, INSIDE_Y.about.name];
+            return match keys.into_iter().find(|key| table.node(key).is_some()) {
                 Some(key) => Err(table.error(key, "expected [halves] with quadrants = true too")),
                 None => Ok(None),
             };
         }
-        let surface = Stimulus::read(table, "surface_y_mm", Limits::within(-1e4, 1e4))?;
-        Ok(Some(WallAlongY {
-            above: table.choice("inside_y", &["below", "above"])? == Some("above"),
-            surface_mm: over_time(table, "surface_y_mm", "a place", surface)?,
-        }))
+        let surface_mm = over_time(table, &SURFACE_Y_MM, "a place")?;
+        Ok(Some(WallAlongY { above: table.get(&INSIDE_Y)? == "above", surface_mm }))
     }
 
     /// Where its surface is at a time, mm above the sheet's centre.
@@ -113,29 +117,23 @@ impl WallPlan {
     pub(crate) fn read(root: &Table) -> Result<Option<WallPlan>, SceneError> {
         let Some(table) = root.table("wall")? else { return Ok(None) };
         let halves = root.table("halves")?;
-        let senses =
-            halves.map_or(Ok(None), |halves| halves.choice("senses", &["together", "each"]))?;
-        if senses != Some("each") {
+        let senses = halves.map_or(Ok(""), |halves| halves.get(&SENSES))?;
+        if senses != "each" {
             let message = "expected [halves] with senses = \"each\" too, which read the direction";
             return Err(table.error("", message));
         }
-        if root.get("control").is_none() {
+        if root.node("control").is_none() {
             return Err(table.error("", "expected [control] too, which gives the wall's force"));
         }
-        let quadrants = halves.map_or(Ok(false), |halves| halves.flag("quadrants"))?;
-        let surface = Stimulus::read(table, "surface_mm", Limits::within(-1e4, 1e4))?;
-        let surface_mm = over_time(table, "surface_mm", "a place", surface)?;
+        let quadrants = halves.map_or(Ok(false), |halves| halves.get(&QUADRANTS))?;
+        let surface_mm = over_time(table, &SURFACE_MM, "a place")?;
         Ok(Some(WallPlan {
-            rule: table.word("rule", &RULES)?.unwrap_or(WallRule::Sequential),
-            right: table.choice("inside", &["left", "right"])? == Some("right"),
-            stiffness_n_per_mm: table.number_or(
-                "stiffness_n_per_mm",
-                Limits::within(0.0, 15.0),
-                0.5,
-            )?,
-            force_n: table.number_or("force_n", Limits::within(0.0, 100.0), 1.0)?,
-            play_mm: table.number("play_mm", Limits::within(0.001, 10.0))?,
-            calibrated: !table.flag("uncalibrated")?,
+            rule: table.get(&RULE)?,
+            right: table.get(&INSIDE)? == "right",
+            stiffness_n_per_mm: table.get(&STIFFNESS_N_PER_MM)?,
+            force_n: table.get(&FORCE_N)?,
+            play_mm: table.get(&PLAY_MM)?,
+            calibrated: !table.get(&UNCALIBRATED)?,
             along_y: WallAlongY::read(table, quadrants)?,
             surface_mm,
         }))

@@ -1,20 +1,26 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! How the haptic voltage goes on in time, of which a scene sets the RMS.
 //!
-//! ```toml
-//! [carrier]
-//! haptic_wave = "square"          # "sine" (default) | "dc" | "square"
-//! haptic_hz = 1000                # of the sine
-//! haptic_turn_s = 0.0017          # a square's polarity turns so often, 1 µs at least, from time 0 on; where absent with every
-//!                                 # slot, behind [supply] with as many as last 20 times as long as it recharges a pad
-//! ```
-//!
 //! A sine and a square have no mean, so that no charge gathers in the insulators (`effects/charge`);
 //! of a square V² is constant, too. Source: docs/physics.md §7.
 
 use crate::error::SceneError;
-use crate::format::{Limits, Table};
+use crate::format::{Key, Limits, Table, keys};
 use crate::stimulus::{Moment, next_multiple};
+
+keys! { KEYS:
+    /// How the haptic voltage goes on in time.
+    HAPTIC_WAVE: Option<&'static str> = Key::choice("haptic_wave", || vec!["sine", "dc", "square"]).usually("sine");
+    /// Time from one turn of a square's polarity to the next, from time 0 on.
+    HAPTIC_TURN_S: Option<f64> = Key::number("haptic_turn_s", Limits::within(1e-6, 1e5)).usually("every slot; behind `[supply]` 20 time constants");
+}
+
+keys! { SUPPLY_KEYS:
+    /// Resistor that keeps the current harmless.
+    LIMITING_KOHM: f64 = Key::number("limiting_kohm", Limits::within(0.0, 1e6)).or(300.0);
+    /// Capacitance of cable and pad to ground.
+    PARASITIC_PF: f64 = Key::number("parasitic_pf", Limits::within(0.0, 1e6)).or(100.0);
+}
 
 /// A turn comes so many time constants of the supply after the one before, where a scene does not say when: it
 /// then costs a tenth of the mean square.
@@ -25,10 +31,7 @@ const WORKING_F_PER_M2: f64 = 0.85e-6;
 
 /// What lies between the source and a pad: the limiting resistor, Ω, and the capacitance to ground, F.
 pub(crate) fn limiter(supply: &Table) -> Result<[f64; 2], SceneError> {
-    Ok([
-        1e3 * supply.number_or("limiting_kohm", Limits::within(0.0, 1e6), 300.0)?,
-        1e-12 * supply.number_or("parasitic_pf", Limits::within(0.0, 1e6), 100.0)?,
-    ])
+    Ok([1e3 * supply.get(&LIMITING_KOHM)?, 1e-12 * supply.get(&PARASITIC_PF)?])
 }
 
 /// The time constant with which `[supply]` recharges a pad in work, s: 210 µs of the paper's; 0 without the table.
@@ -57,8 +60,8 @@ impl HapticWave {
     /// Reads `[carrier]`'s keys.
     pub(crate) fn read(root: &Table) -> Result<HapticWave, SceneError> {
         let Some(carrier) = root.table("carrier")? else { return Ok(HapticWave::Sine) };
-        let word = carrier.choice("haptic_wave", &["sine", "dc", "square"])?;
-        let turn_s = carrier.number("haptic_turn_s", Limits::within(1e-6, 1e5))?;
+        let word = carrier.get(&HAPTIC_WAVE)?;
+        let turn_s = carrier.get(&HAPTIC_TURN_S)?;
         match (word, turn_s) {
             (Some("square"), turn_s) => Ok(HapticWave::Square { turn_s }),
             (_, Some(_)) => Err(carrier.error(

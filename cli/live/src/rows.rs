@@ -3,6 +3,7 @@
 
 use hapticore_host::QUANTITIES;
 use hapticore_run::record::{Driven, GameRow, Row, Truth};
+use hapticore_scene::did_you_mean;
 
 use crate::client::{Bytes, binary_frame, text_frame};
 use crate::protocol::{Answer, Every, Format, Subscription};
@@ -121,7 +122,10 @@ impl Subscriber {
         let getters = asked.columns.iter().map(|name| {
             let unknown = || {
                 let name: String = name.chars().take(40).collect();
-                format!("columns: expected names among {}, got {name:?}", names().join(", "))
+                let known = names();
+                let near = did_you_mean(&name, known.iter().map(String::as_str));
+                let known = known.join(", ");
+                format!("columns: expected names among {known}, got {name:?}{near}")
             };
             getter(name).ok_or_else(unknown)
         });

@@ -4,10 +4,10 @@
 use std::path::Path;
 
 use anyhow::{Context, Result, anyhow};
-use hapticore_contract::profile::Profile;
+use hapticore_contract::profile::{BUNDLED, Profile};
 use hapticore_host::profile::{load, looks_like_a_file};
 use hapticore_host::text::read;
-use hapticore_scene::{Scene, Timing, gallery};
+use hapticore_scene::{Scene, Timing, did_you_mean, gallery};
 
 /// The scene of a bundled name or a file, with keys set.
 ///
@@ -26,7 +26,8 @@ fn scene_file(name: &str) -> Result<String> {
         return Ok(read(Path::new(name))?);
     }
     let bundled: Vec<_> = gallery::all().iter().map(|(name, _)| *name).collect();
-    Err(anyhow!("expected a file or a scene among {}, got \"{name}\"", bundled.join(", ")))
+    let (known, near) = (bundled.join(", "), did_you_mean(name, bundled));
+    Err(anyhow!("expected a file or a scene among {known}, got \"{name}\"{near}"))
 }
 
 /// The profile of a bundled name or a file.
@@ -34,7 +35,13 @@ fn scene_file(name: &str) -> Result<String> {
 /// # Errors
 /// No such profile, or one that no core can have; the message names file, line or key.
 pub fn profile(name: &str) -> Result<Profile> {
-    let profile = load(name)?;
+    let profile = load(name).map_err(|error| {
+        let near = match looks_like_a_file(name) {
+            true => String::new(),
+            false => did_you_mean(name, BUNDLED.map(|(name, _)| name)),
+        };
+        anyhow!("{:#}{near}", anyhow::Error::from(error))
+    })?;
     hapticore_model::check(&profile).with_context(|| name.to_string())?;
     Ok(profile)
 }

@@ -12,7 +12,9 @@ use std::time::Instant;
 use anyhow::{Result, bail};
 use hapticore_contract::profile::Profile;
 use hapticore_host::residual::{self, Residual};
-use hapticore_scene::{ControlPlan, Figure, HapticWave, LevelDeviation, Quantity, Scene, Timing};
+use hapticore_scene::{
+    ControlPlan, Figure, HapticWave, LevelDeviation, Quantity, Scene, Timing, did_you_mean,
+};
 use rayon::prelude::*;
 
 use crate::capture::Recorder;
@@ -52,7 +54,8 @@ pub fn cases(
 ) -> Result<Vec<Case>> {
     let names: Vec<_> = scene.cases.iter().map(|case| case.name.as_str()).collect();
     if let Some(unknown) = chosen.iter().find(|name| !names.contains(&name.as_str())) {
-        bail!("--case: expected a case among {}, got \"{unknown}\"", names.join(", "));
+        let near = did_you_mean(unknown, names.iter().copied());
+        bail!("--case: expected a case among {}, got \"{unknown}\"{near}", names.join(", "));
     }
     let is_chosen =
         |index: &usize| chosen.is_empty() || chosen.iter().any(|name| name == names[*index]);

@@ -18,10 +18,10 @@ use num_complex::Complex64;
 
 use super::effect::{ChannelEffect, Effect, Phasors, Run};
 use super::pad::Pad;
-use super::spec::{Level, Setting, Spec};
+use super::spec::{Level, Rung, Setting, Spec};
 use crate::device::Device;
 use crate::error::SceneError;
-use crate::format::Table;
+use crate::format::{Table, keys};
 use crate::rotor::Rotor;
 use crate::stimulus::Moment;
 use crate::terminals::MOST_CHANNELS;
@@ -33,6 +33,11 @@ pub(crate) const CARRIER: &str = "carrier";
 /// The level at which a core demodulates samples itself.
 pub(crate) const SAMPLES: &str = "samples";
 
+keys! { KEYS:
+    /// What the `float` and `fixed` cores receive: amplitudes, one set per slot, or ADC samples.
+    RUNG: Option<&'static str> = Rung::choice("rung", || vec!["phasor", SAMPLES]).usually("phasor");
+}
+
 pub(super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError> {
     let level = |word, cost_ns| {
         Level::new(word, cost_ns, |setting| Effect::Channels(Box::new(Carrier::new(setting))))
@@ -40,6 +45,7 @@ pub(super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError>
     Spec::with_levels(
         CARRIER,
         root.table("carrier")?,
+        &RUNG,
         vec![level("phasor", 100.0), level(SAMPLES, 4e3)],
         "phasor",
     )

@@ -4,13 +4,6 @@
 //!
 //!   F_e ∝ (V − V_c)²,   V_c = Σx_i,   τ_i·ẋ_i = s_i·V − x_i
 //!
-//! ```toml
-//! [charge]
-//! share = 0.3                     # s: of a constant voltage, in the end; or a list of up to four
-//! time_constant_s = 20            # τ; a list as long
-//! start_v = 0                     # x at the start of the case; a list as long
-//! ```
-//!
 //! V is the source's voltage with its polarity, as `carrier.haptic_wave` has it. A positive share
 //! screens the pad, whose attraction decays; under a negative one it rises, as by Johnsen and
 //! Rahbek. Under "sine" nothing gathers, and what a start leaves decays; under "square" what one
@@ -29,7 +22,7 @@ use crate::device::{Device, EPSILON_0};
 use crate::drive::PadDrive;
 use crate::error::SceneError;
 use crate::few::Few;
-use crate::format::{Limits, Table};
+use crate::format::{Key, Limits, Table, keys};
 use crate::stimulus::Moment;
 
 /// The most time constants.
@@ -37,6 +30,16 @@ const MOST_TRAPS: usize = 4;
 
 /// The longest line that a voltage is taken as, s.
 const STEP_S: f64 = 1e-3;
+
+keys! { KEYS:
+    /// The charge in the end, as a share of a constant voltage: up to four shares, of 0.99 together at most.
+    SHARE: Vec<f64> = Key::one_or_several("share", Limits::within(-10.0, 0.99)).required("a number from -10 to 0.99");
+    /// How slowly each share follows the voltage; a list as long as that of shares.
+    TIME_CONSTANT_S: Vec<f64> = Key::one_or_several("time_constant_s", Limits::within(1e-9, 1e6))
+        .required("a number from 0.000000001 to 1000000");
+    /// What each share holds at the start of the case; a list as long as that of shares.
+    START_V: Option<Vec<f64>> = Key::one_or_several("start_v", Limits::within(-1e5, 1e5)).usually("0");
+}
 
 /// One share of the charge.
 #[derive(Clone, Copy, Debug, Default)]
@@ -64,13 +67,8 @@ pub(super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneE
 }
 
 fn read_traps(table: &Table) -> Result<Each<Trap>, SceneError> {
-    let (share, time) = (Limits::within(-10.0, 0.99), Limits::within(1e-9, 1e6));
-    let shares = one_or_several(table, "share", share)?;
-    let shares = table.require("share", &share.to_string(), shares)?;
-    let times_s = one_or_several(table, "time_constant_s", time)?;
-    let times_s = table.require("time_constant_s", &time.to_string(), times_s)?;
-    let starts_v = one_or_several(table, "start_v", Limits::within(-1e5, 1e5))?;
-    let starts_v = starts_v.unwrap_or_else(|| vec![0.0; shares.len()]);
+    let (shares, times_s) = (table.get(&SHARE)?, table.get(&TIME_CONSTANT_S)?);
+    let starts_v = table.get(&START_V)?.unwrap_or_else(|| vec![0.0; shares.len()]);
     if shares.len() > MOST_TRAPS || shares.iter().sum::<f64>() > 0.99 {
         let expected = format!("expected at most {MOST_TRAPS} shares that add up to 0.99 at most");
         return Err(table.error("share", format!("{expected}, got {shares:?}")));
@@ -84,18 +82,6 @@ fn read_traps(table: &Table) -> Result<Each<Trap>, SceneError> {
     let each = shares.into_iter().zip(times_s).zip(starts_v);
     let trap = |((share, time_constant_s), start_v)| Trap { share, time_constant_s, start_v };
     Ok(each.map(trap).collect())
-}
-
-/// A number, or a list of them.
-fn one_or_several(
-    table: &Table,
-    key: &'static str,
-    limits: Limits,
-) -> Result<Option<Vec<f64>>, SceneError> {
-    match table.get(key).is_some_and(|node| node.value.number().is_some()) {
-        true => Ok(table.number(key, limits)?.map(|number| vec![number])),
-        false => table.numbers(key, limits),
-    }
 }
 
 struct Charging {

@@ -11,10 +11,21 @@
 
 use super::effect::{Effect, PadEffect};
 use super::pad::{Finger, Pad};
-use super::spec::{Level, Spec};
+use super::spec::{Level, Rung, Spec};
 use crate::device::Device;
 use crate::error::SceneError;
-use crate::format::{Limits, Table};
+use crate::format::{Key, Limits, Table, keys};
+
+keys! { KEYS:
+    /// Level of the finger.
+    RUNG: Option<&'static str> = Rung::choice("rung", || vec!["spring"]).usually("spring");
+    /// Stiffness of the spring between finger and pad.
+    STIFFNESS_N_PER_M: f64 = Key::number("stiffness_n_per_m", Limits::within(0.0, 1e7)).or(300.0);
+    /// Damping between finger and pad.
+    DAMPING_N_S_PER_M: f64 = Key::number("damping_n_s_per_m", Limits::within(0.0, 1e5)).or(3.0);
+    /// Mass of the pad.
+    MASS_KG: f64 = Key::number("mass_kg", Limits::within(1e-6, 1e4)).or(0.05);
+}
 
 pub(super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError> {
     let Some(table) = root.table("hand")? else { return Ok(None) };
@@ -22,12 +33,12 @@ pub(super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError>
         return Err(table.error("", "expected [friction] too, which the finger works against"));
     }
     let finger = Finger {
-        stiffness_n_per_m: table.number_or("stiffness_n_per_m", Limits::within(0.0, 1e7), 300.0)?,
-        damping_n_s_per_m: table.number_or("damping_n_s_per_m", Limits::within(0.0, 1e5), 3.0)?,
-        mass_kg: table.number_or("mass_kg", Limits::within(1e-6, 1e4), 0.05)?,
+        stiffness_n_per_m: table.get(&STIFFNESS_N_PER_M)?,
+        damping_n_s_per_m: table.get(&DAMPING_N_S_PER_M)?,
+        mass_kg: table.get(&MASS_KG)?,
     };
     let spring = Level::new("spring", 5.0, move |_| Effect::Pad(Box::new(OnFinger { finger })));
-    Spec::with_levels("hand", Some(table), vec![spring], "spring")
+    Spec::with_levels("hand", Some(table), &RUNG, vec![spring], "spring")
 }
 
 struct OnFinger {

@@ -10,25 +10,25 @@
 //! in the list.
 
 pub(crate) mod carrier;
-mod charge;
+pub(crate) mod charge;
 pub(crate) mod coupling;
 mod effect;
-mod finger;
-mod friction;
-mod gap;
+pub(crate) mod finger;
+pub(crate) mod friction;
+pub(crate) mod gap;
 pub(crate) mod pad;
 pub(crate) mod part;
 pub(crate) mod recorded;
-mod release;
+pub(crate) mod release;
 mod running;
-mod sensor;
+pub(crate) mod sensor;
 pub(crate) mod sheet;
-mod shunt;
+pub(crate) mod shunt;
 mod spec;
 pub(crate) mod split_electrode;
-mod supply;
-mod switching;
-mod temperature;
+pub(crate) mod supply;
+pub(crate) mod switching;
+pub(crate) mod temperature;
 mod tick;
 
 pub(crate) use effect::{Phasors, Run};

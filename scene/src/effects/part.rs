@@ -14,9 +14,10 @@
 
 use super::effect::{Effect, PadEffect};
 use super::pad::Pad;
+use super::sensor::HAPTIC_LEAKAGE_OF_OTHERS;
 use super::sheet::ideal::ideal_split;
 use super::spec::Spec;
-use super::split_electrode::{Strip, read_strips};
+use super::split_electrode::{SENSES, Strip, read_strips};
 use crate::device::Device;
 use crate::drive::Electrode;
 use crate::error::SceneError;
@@ -34,11 +35,15 @@ pub(crate) fn centres_mm(root: &Table, device: &Device) -> Result<Vec<[f64; 2]>,
 /// The parts that have slots of their own.
 fn parts(root: &Table, device: &Device) -> Result<Option<Vec<Part>>, SceneError> {
     let Some(table) = root.table("halves")? else { return Ok(None) };
-    if table.choice("senses", &["together", "each"])? != Some("each") {
+    if table.get(&SENSES)? != "each" {
         return Ok(None);
     }
-    let others = root.table("sensor")?.is_some_and(|sensor| sensor.get("others").is_some());
-    let of_discs = [("[coupling]", root.get("coupling").is_some()), ("sensor.others", others)];
+    let sensor = root.table("sensor")?;
+    let others = sensor.is_some_and(|sensor| sensor.has(&HAPTIC_LEAKAGE_OF_OTHERS));
+    let of_discs = [
+        ("[coupling]", root.node("coupling").is_some()),
+        ("sensor.haptic_leakage_of_others", others),
+    ];
     if let Some((name, _)) = of_discs.iter().find(|(_, is_on)| *is_on) {
         let expected = format!("expected \"together\" with {name}, which takes a pad for a disc");
         return Err(table.error("senses", expected));

@@ -3,12 +3,6 @@
 //!
 //!   Ȧ = −(A − F_e)/τ while A > F_e,   else A = F_e                    (A is what friction feels of F_e)
 //!
-//! ```toml
-//! [release]
-//! time_constant_ms = 0.15         # τ
-//! step_us = 100
-//! ```
-//!
 //! What falls in a step has the attraction of its end: a voltage that steps is followed exactly, a
 //! gap that opens half a step late. Haptic force and friction are of A. The default is that of an
 //! electroadhesive clutch at 300 V (Rauf and Follmer, 2025; docs/physics.md §7).
@@ -20,15 +14,22 @@ use super::tick::Tick;
 use crate::device::Device;
 use crate::drive::PadDrive;
 use crate::error::SceneError;
-use crate::format::{Limits, Table};
+use crate::format::{Key, Limits, Table, keys};
+
+keys! { KEYS:
+    /// How slowly friction lets go.
+    TIME_CONSTANT_MS: f64 = Key::number("time_constant_ms", Limits::within(1e-6, 1e6)).or(0.15);
+    /// Time step.
+    STEP_US: f64 = Key::number("step_us", Limits::within(1.0, 1000.0)).or(100.0);
+}
 
 pub(super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError> {
     let Some(table) = root.table("release")? else { return Ok(None) };
     if root.table("friction")?.is_none() {
         return Err(table.error("", "expected [friction] too, which is what lets go late"));
     }
-    let time_ms = table.number_or("time_constant_ms", Limits::within(1e-6, 1e6), 0.15)?;
-    let step_s = 1e-6 * table.number_or("step_us", Limits::within(1.0, 1000.0), 100.0)?;
+    let time_ms = table.get(&TIME_CONSTANT_MS)?;
+    let step_s = 1e-6 * table.get(&STEP_US)?;
     let build = move |_: &Setting| {
         Effect::Pad(Box::new(Release { time_s: 1e-3 * time_ms, step_s, pads: Vec::new() }))
     };

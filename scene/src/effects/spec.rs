@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::effect::Effect;
 use crate::device::Device;
 use crate::error::SceneError;
-use crate::format::Table;
+use crate::format::{Key, Table};
 use crate::timing::Timing;
 
 /// An effect as the scene asks for it.
@@ -99,6 +99,9 @@ impl Level {
     }
 }
 
+/// The key that names an effect's level.
+pub(crate) type Rung = Key<Option<&'static str>>;
+
 impl Spec {
     /// An effect that has one way to be evaluated; `label` says how much of it there is.
     pub fn new(
@@ -111,14 +114,15 @@ impl Spec {
     }
 
     /// An effect with levels, from the coarsest to the finest, of which `table` names one as
-    /// `rung`; `usual` where it does not.
+    /// `rung`, which declares them all; `usual` where it does not.
     pub fn with_levels(
         name: &'static str,
         table: Option<&Table>,
+        rung: &Rung,
         levels: Vec<Level>,
         usual: &str,
     ) -> Result<Option<Spec>, SceneError> {
-        Spec::with_questions(name, table, levels, usual, &[])
+        Spec::with_questions(name, table, rung, levels, usual, &[])
     }
 
     /// The same, where `rung` may also be the word of a question that several levels answer, so that
@@ -126,13 +130,18 @@ impl Spec {
     pub fn with_questions(
         name: &'static str,
         table: Option<&Table>,
+        rung: &Rung,
         levels: Vec<Level>,
         usual: &str,
         questions: &[(&'static str, &'static str)],
     ) -> Result<Option<Spec>, SceneError> {
         let of_levels = levels.iter().map(|level| level.word);
         let words: Vec<_> = of_levels.chain(questions.iter().map(|(word, _)| *word)).collect();
-        let word = table.map_or(Ok(None), |table| table.choice("rung", &words))?;
+        debug_assert!(
+            words.iter().all(|word| rung.about.words().contains(word)),
+            "{name}: {words:?}"
+        );
+        let word = table.map_or(Ok(None), |table| table.choice(rung.about.name, &words))?;
         let question = questions.iter().find(|(question, _)| Some(*question) == word);
         let level = question.map_or(word.unwrap_or(usual), |(_, usual)| usual);
         let chosen = levels.iter().position(|known| known.word == level);

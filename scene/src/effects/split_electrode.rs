@@ -28,28 +28,51 @@
 use super::effect::{Effect, PadEffect};
 use super::gap;
 use super::pad::Pad;
-use super::spec::{Level, Setting, Spec};
+use super::spec::{Level, Rung, Setting, Spec};
 use super::tick::Tick;
 use crate::device::Device;
 use crate::drive::{Electrode, PadDrive, Pull};
 use crate::error::SceneError;
-use crate::format::{Limits, Table};
+use crate::format::{Key, Limits, Table, keys};
 
 /// Where a hand pushes, mm above the sheet, where the scene does not say it: at the sheet no push tilts the pad, and its
 /// direction cannot be read.
 const HEIGHT_MM: f64 = 5.0;
 
+keys! { KEYS:
+    /// Level of the split electrode.
+    RUNG: Option<&'static str> = Rung::choice("rung", || vec!["gaps"]).usually("gaps");
+    /// Whether a pad has one slot, in which all its electrodes are connected, or one for each part.
+    SENSES: &'static str = Key::choice("senses", || vec!["together", "each"]).or("together");
+    /// Number of electrodes: 2 halves, or 4 strips of which the outer two sense.
+    STRIPS: u64 = Key::whole("strips", 2, 4).or(2);
+    /// The pad is split in four quadrants in place of strips, all of which sense and brake.
+    QUADRANTS: bool = Key::flag("quadrants");
+    /// Share of the pad's area that the outer two of four strips have together.
+    OUTER_SHARE_PERCENT: f64 = Key::number("outer_share_percent", Limits::within(1.0, 90.0)).or(20.0);
+    /// Largest haptic voltage of the outer two of four strips.
+    SENSING_V_RMS: Option<f64> = Key::number("sensing_v_rms", Limits::within(0.0, 1e5)).usually("no limit");
+    /// Height above the sheet at which the hand pushes; with `[hand]`.
+    PUSH_HEIGHT_MM: Option<f64> = Key::number("push_height_mm", Limits::within(0.0, 1e3)).usually("5 with [hand], else 0");
+    /// How much larger the electrodes on the left are.
+    MISMATCH_PERCENT: f64 = Key::number("mismatch_percent", Limits::within(-50.0, 50.0)).or(0.0);
+    /// How much higher the patches on the left that bear no load are.
+    HEIGHT_MISMATCH_PERCENT: f64 = Key::number("height_mismatch_percent", Limits::within(-20.0, 20.0)).or(0.0);
+    /// How much higher the haptic voltage of the electrodes on the left is.
+    SOURCE_MISMATCH_PERCENT: f64 = Key::number("source_mismatch_percent", Limits::within(-50.0, 50.0)).or(0.0);
+}
+
 pub(super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneError> {
     let Some(table) = root.table("halves")? else { return Ok(None) };
-    let raised = table.number_or("height_mismatch_percent", Limits::within(-20.0, 20.0), 0.0)?;
+    let raised = table.get(&HEIGHT_MISMATCH_PERCENT)?;
     let (left, right) = (gap::read_raised(root, device, 0.01 * raised)?, gap::read(root, device)?);
     let (Some(left), Some(right)) = (left, right) else {
         return Err(table.error("", "expected [gap] too, which the push closes on one side"));
     };
-    let mismatch = 0.01 * table.number_or("mismatch_percent", Limits::within(-50.0, 50.0), 0.0)?;
+    let mismatch = 0.01 * table.get(&MISMATCH_PERCENT)?;
     let has_hand = root.table("hand")?.is_some();
     let usual_mm = if has_hand { HEIGHT_MM } else { 0.0 };
-    let height_mm = table.number_or("push_height_mm", Limits::within(0.0, 1e3), usual_mm)?;
+    let height_mm = table.get(&PUSH_HEIGHT_MM.or(usual_mm))?;
     if height_mm > 0.0 && !has_hand {
         return Err(
             table.error("push_height_mm", "expected [hand] too, which pushes at that height")
@@ -68,7 +91,7 @@ pub(super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneE
             half_width_mm,
         }))
     };
-    Spec::with_levels("halves", Some(table), vec![Level::new("gaps", 1e3, build)], "gaps")
+    Spec::with_levels("halves", Some(table), &RUNG, vec![Level::new("gaps", 1e3, build)], "gaps")
 }
 
 /// One electrode.
@@ -87,26 +110,26 @@ pub(super) fn read_strips(
     mismatch: f64,
     device: &Device,
 ) -> Result<Vec<Strip>, SceneError> {
-    let source = table.number_or("source_mismatch_percent", Limits::within(-50.0, 50.0), 0.0)?;
+    let source = table.get(&SOURCE_MISMATCH_PERCENT)?;
     let left_source_share = 1.0 + 0.01 * source;
-    if table.flag("quadrants")? {
+    if table.get(&QUADRANTS)? {
         if let Some(key) = ["strips", "outer_share_percent", "sensing_v_rms"]
             .into_iter()
-            .find(|key| table.get(key).is_some())
+            .find(|key| table.node(key).is_some())
         {
             return Err(table.error(key, "expected none with quadrants, which all sense and brake"));
         }
         return Ok(quadrants(0.5 * device.pad_diameter_mm, mismatch, left_source_share));
     }
-    let strips = table.whole("strips", 2, 4)?.unwrap_or(2);
+    let strips = table.get(&STRIPS)?;
     if strips == 3 {
         return Err(table.error("strips", "expected 2 or 4, got 3"));
     }
     let mut sides = vec![[0.5, device.electrode_offset_mm()]];
     let mut sensing_v_rms = f64::INFINITY;
     if strips == 4 {
-        let outer = table.number_or("outer_share_percent", Limits::within(1.0, 90.0), 20.0)?;
-        let most_v = table.number("sensing_v_rms", Limits::within(0.0, 1e5))?;
+        let outer = table.get(&OUTER_SHARE_PERCENT)?;
+        let most_v = table.get(&SENSING_V_RMS)?;
         sensing_v_rms = most_v.unwrap_or(sensing_v_rms);
         sides = disc_strips(0.005 * outer, 0.5 * device.pad_diameter_mm).to_vec();
     }

@@ -12,23 +12,28 @@
 //! | --- | --- | --- |
 //! | `steady` | amplitudes | none once R_lim·(C + C_par), a quarter of a millisecond, has passed |
 //!
-//! `limiting_kohm` is the resistor that keeps the current harmless, `transformer_h` the inductance
-//! of the winding that adds the sensing voltage, `parasitic_pf` the capacitance of cable and pad to
-//! ground. Source: docs/physics.md §3; the inductance is no one's measurement, hence 0.
+//! Source: docs/physics.md §3; the inductance is no one's measurement, hence 0.
 
 use std::f64::consts::TAU;
 
 use super::effect::{Effect, PadEffect};
 use super::pad::{Pad, Supply};
-use super::spec::{Level, Spec};
+use super::spec::{Level, Rung, Spec};
 use crate::device::{Device, EPSILON_0};
 use crate::error::SceneError;
-use crate::format::{Limits, Table};
+use crate::format::{Key, Limits, Table, keys};
 use crate::wave::{HapticWave, limiter};
+
+keys! { KEYS:
+    /// Level of the supply.
+    RUNG: Option<&'static str> = Rung::choice("rung", || vec!["steady"]).usually("steady");
+    /// Inductance of the winding that adds the sensing voltage; 0 with a square.
+    TRANSFORMER_H: f64 = Key::number("transformer_h", Limits::within(0.0, 1e3)).or(0.0);
+}
 
 pub(super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneError> {
     let Some(table) = root.table("supply")? else { return Ok(None) };
-    let transformer_h = table.number_or("transformer_h", Limits::within(0.0, 1e3), 0.0)?;
+    let transformer_h = table.get(&TRANSFORMER_H)?;
     if matches!(device.haptic_wave, HapticWave::Square { .. }) && transformer_h > 0.0 {
         let message = "expected 0 with carrier.haptic_wave = \"square\", whose turns would ring";
         return Err(table.error("transformer_h", message));
@@ -46,7 +51,7 @@ pub(super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneE
         let supply = Supply { wave: setting.device.haptic_wave, ..supply };
         Effect::Pad(Box::new(Supplied { supply, pad_m2 }))
     });
-    Spec::with_levels("supply", Some(table), vec![steady], "steady")
+    Spec::with_levels("supply", Some(table), &RUNG, vec![steady], "steady")
 }
 
 struct Supplied {

@@ -20,10 +20,10 @@ use num_complex::Complex64;
 
 use super::effect::{ChannelEffect, Effect, Phasors, Run};
 use super::pad::Pad;
-use super::spec::{Level, Spec};
+use super::spec::{Level, Rung, Spec};
 use crate::device::Device;
 use crate::error::SceneError;
-use crate::format::Table;
+use crate::format::{Table, keys};
 use crate::rotor::Rotor;
 use crate::timing::Timing;
 
@@ -36,6 +36,13 @@ const RC: [(&str, Method, usize, f64); 6] = [
     ("rc-16", Method::Trapezoid, 16, 2.5e5),
     ("rc-64", Method::Trapezoid, 64, 1e6),
 ];
+
+keys! { KEYS:
+    /// How the transient is computed: the circuit by the trapezoid rule in so many steps per sample (`rc-…`), explicitly, or
+    /// the closed form.
+    RUNG: Option<&'static str> =
+        Rung::choice("rung", || [&RC.map(|(word, ..)| word)[..], &["settling"][..]].concat()).usually("settling");
+}
 
 /// What a transient has decayed to when it is left out.
 const NOTHING: f64 = 1e-30;
@@ -64,7 +71,7 @@ pub(super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError>
     };
     let mut levels: Vec<_> = RC.map(integrated).into();
     levels.push(level("settling", Method::Exact, 1, 50.0));
-    Spec::with_levels("switching", Some(table), levels, "settling")
+    Spec::with_levels("switching", Some(table), &RUNG, levels, "settling")
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]

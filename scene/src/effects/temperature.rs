@@ -5,15 +5,6 @@
 //!   R_s(x, y) = R_s·[1 + α·(ΔT + g_x·x/width + g_y·y/height)]      (x and y from the sheet's middle)
 //!   κ = κ·(1 + β·ΔT)
 //!
-//! ```toml
-//! [temperature]
-//! tempco_ppm_per_k = 400          # α
-//! rise_k = 15                     # ΔT in the middle, or over time, as a pad's load; see `stimulus`
-//! gradient_k = [4, 0]             # g: from the left edge to the right one, from the bottom to the top
-//! spring_percent_per_k = 0.34     # β, of the springs in [gap]
-//! step_k = 0.05                   # of ΔT, where it moves: what is computed from the sheet is renewed so often
-//! ```
-//!
 //! Either α or β is there, or both; an effect that is not named is not there.
 //!
 //! Split, R_p, shunt and coupling follow, and so does the truth; calibrations and what the host
@@ -41,8 +32,21 @@ use super::pad::{FilmChange, Pad};
 use super::spec::Spec;
 use crate::device::Device;
 use crate::error::SceneError;
-use crate::format::{Limits, Table};
+use crate::format::{Key, Limits, Table, keys};
 use crate::stimulus::{Moment, Stimulus};
+
+keys! { KEYS:
+    /// Temperature coefficient α of the film's resistance.
+    TEMPCO_PPM_PER_K: Option<f64> = Key::number("tempco_ppm_per_k", Limits::within(-1e5, 1e5));
+    /// How much warmer than at the calibration the sheet's middle is.
+    RISE_K: Option<Stimulus> = Key::over_time("rise_k", Limits::within(-1e3, 1e3)).usually("0");
+    /// Difference of temperature from the left edge to the right one and from the bottom to the top.
+    GRADIENT_K: [f64; 2] = Key::pair("gradient_k", Limits::within(-1e3, 1e3)).or(&[0.0; 2]);
+    /// Temperature coefficient β of the springs in `[gap]`.
+    SPRING_PERCENT_PER_K: Option<f64> = Key::number("spring_percent_per_k", Limits::within(-100.0, 100.0));
+    /// Step of `rise_k`, where it moves, at which what is computed from the sheet is renewed.
+    STEP_K: f64 = Key::number("step_k", Limits::within(1e-6, 100.0)).or(0.05);
+}
 
 /// The most that a film may change, as a share of its resistance: what is left is positive.
 const MOST_CHANGE: f64 = 0.9;
@@ -64,8 +68,8 @@ pub(super) fn stiffest(root: &Table) -> Result<Option<f64>, SceneError> {
 /// Reads what becomes of the film.
 pub(super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError> {
     let Some(table) = root.table("temperature")? else { return Ok(None) };
-    let of_rubber = table.get("spring_percent_per_k").is_some();
-    if of_rubber && table.get("tempco_ppm_per_k").is_none() {
+    let of_rubber = table.has(&SPRING_PERCENT_PER_K);
+    if of_rubber && !table.has(&TEMPCO_PPM_PER_K) {
         return Ok(None);
     }
     let Some(sheet) = root.table("sheet")? else {
@@ -87,8 +91,7 @@ pub(super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError>
 
 /// ΔT in the middle.
 fn read_rise(table: &Table) -> Result<Stimulus, SceneError> {
-    let rise_k = Stimulus::read(table, "rise_k", Limits::within(-1e3, 1e3))?
-        .unwrap_or(Stimulus::Constant(0.0));
+    let rise_k = table.get(&RISE_K)?.unwrap_or(Stimulus::Constant(0.0));
     match rise_k.points() {
         1 => Ok(rise_k),
         _ => Err(table.error(
@@ -108,7 +111,7 @@ struct Spring {
 impl Spring {
     fn read(root: &Table) -> Result<Option<Spring>, SceneError> {
         let Some(table) = root.table("temperature")? else { return Ok(None) };
-        let percent = table.number("spring_percent_per_k", Limits::within(-100.0, 100.0))?;
+        let percent = table.get(&SPRING_PERCENT_PER_K)?;
         let Some(percent) = percent else { return Ok(None) };
         if root.table("gap")?.is_none() {
             let message =
@@ -153,17 +156,12 @@ struct Temperature {
 
 impl Temperature {
     fn read(table: &Table) -> Result<Temperature, SceneError> {
-        let ppm = Limits::within(-1e5, 1e5);
-        let tempco = table.require(
-            "tempco_ppm_per_k",
-            &ppm.to_string(),
-            table.number("tempco_ppm_per_k", ppm)?,
-        )?;
+        let tempco = table.get(&TEMPCO_PPM_PER_K.required("a number from -100000 to 100000"))?;
         let rise_k = read_rise(table)?;
         let temperature = Temperature {
             per_k: 1e-6 * tempco,
-            gradient_k: table.pair("gradient_k", Limits::within(-1e3, 1e3))?.unwrap_or_default(),
-            step_k: table.number_or("step_k", Limits::within(1e-6, 100.0), 0.05)?,
+            gradient_k: table.get(&GRADIENT_K)?,
+            step_k: table.get(&STEP_K)?,
             rise_k,
         };
         let change = temperature.largest_change();

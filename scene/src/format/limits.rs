@@ -5,13 +5,17 @@ use std::fmt;
 
 /// A range of numbers; `above` leaves its lower end out.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Limits {
-    low: f64,
-    high: f64,
-    open: bool,
+pub struct Limits {
+    /// The least number.
+    pub low: f64,
+    /// The greatest number.
+    pub high: f64,
+    /// The lower end itself is left out.
+    pub open: bool,
 }
 
 impl Limits {
+    /// Any finite number.
     pub const ANY: Limits = Limits { low: f64::NEG_INFINITY, high: f64::INFINITY, open: false };
 
     /// `low ..= high`
@@ -24,12 +28,27 @@ impl Limits {
         Limits { low, high, open: true }
     }
 
+    /// The range in few words: `0 to 15`, `above 0 to 1e4`.
+    pub fn short(&self) -> String {
+        match (self.low.is_finite(), self.open) {
+            (false, _) => "any number".to_string(),
+            (true, true) => format!("above {} to {}", short(self.low), short(self.high)),
+            (true, false) => format!("{} to {}", short(self.low), short(self.high)),
+        }
+    }
+
     /// Whether a finite `value` lies in the range.
     pub fn holds(&self, value: f64) -> bool {
         value.is_finite()
             && value <= self.high
             && if self.open { value > self.low } else { value >= self.low }
     }
+}
+
+/// A number without long rows of zeros.
+pub(super) fn short(number: f64) -> String {
+    let is_plain = number == 0.0 || (1e-3..1e5).contains(&number.abs());
+    if is_plain { number.to_string() } else { format!("{number:e}") }
 }
 
 impl fmt::Display for Limits {

@@ -8,7 +8,7 @@ use super::tree::{Node, Table, Value};
 impl Table {
     /// A list of texts.
     pub fn texts(&self, key: &'static str) -> Result<Option<Vec<String>>> {
-        let Some(node) = self.get(key) else { return Ok(None) };
+        let Some(node) = self.node(key) else { return Ok(None) };
         let text = |item: &Node| {
             if let Value::Text(text) = &item.value { Some(text.clone()) } else { None }
         };
@@ -23,9 +23,17 @@ impl Table {
         }
     }
 
+    /// A number, or a list of them, in a stated range, not empty.
+    pub fn one_or_several(&self, key: &'static str, limits: Limits) -> Result<Option<Vec<f64>>> {
+        match self.node(key).is_some_and(|node| node.value.number().is_some()) {
+            true => Ok(self.number(key, limits)?.map(|number| vec![number])),
+            false => self.numbers(key, limits),
+        }
+    }
+
     /// A list of numbers in a stated range, not empty.
     pub fn numbers(&self, key: &'static str, limits: Limits) -> Result<Option<Vec<f64>>> {
-        let Some(node) = self.get(key) else { return Ok(None) };
+        let Some(node) = self.node(key) else { return Ok(None) };
         let list = match &node.value {
             Value::List(list) if !list.is_empty() => list,
             other => return self.wrong(key, format_args!("a list, each {limits}"), other),
@@ -48,7 +56,7 @@ impl Table {
 
     /// A list of pairs, not empty.
     pub fn pairs(&self, key: &'static str) -> Result<Option<Vec<[f64; 2]>>> {
-        let Some(node) = self.get(key) else { return Ok(None) };
+        let Some(node) = self.node(key) else { return Ok(None) };
         let pair = |item: &Node| match &item.value {
             Value::List(list) if list.len() == 2 => {
                 Some([list[0].value.number()?, list[1].value.number()?])
@@ -69,7 +77,7 @@ impl Table {
 
     /// The list of tables at `key`, `[[key]]`; empty where there is none.
     pub fn tables(&self, key: &'static str) -> Result<Vec<&Table>> {
-        let Some(node) = self.get(key) else { return Ok(Vec::new()) };
+        let Some(node) = self.node(key) else { return Ok(Vec::new()) };
         let Value::List(list) = &node.value else {
             return self.wrong(key, format_args!("tables, each headed [[{key}]]"), &node.value);
         };

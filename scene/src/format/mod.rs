@@ -3,13 +3,20 @@
 //! which keys are known.
 
 mod document;
+mod key;
+mod kind;
 mod limits;
 mod lists;
 mod overrides;
+mod read;
 mod table;
 mod tree;
 
 pub(crate) use document::parse;
-pub(crate) use limits::Limits;
+pub use key::KeyInfo;
+pub(crate) use key::{Key, keys};
+pub use kind::{Kind, Otherwise};
+pub use limits::Limits;
 pub(crate) use overrides::{apply, parse_value};
+pub(crate) use read::{Read, Word};
 pub(crate) use tree::{Node, Table, Value};

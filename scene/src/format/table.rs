@@ -2,9 +2,11 @@
 //! Typed access to a table. Every key asked for becomes a known key; when all is read, a key that
 //! was not asked for is an error.
 
+use super::kind::Kind;
 use super::limits::Limits;
 use super::tree::{Table, Value};
 use crate::error::{Place, SceneError};
+use crate::suggest::did_you_mean;
 
 pub(super) type Result<T> = std::result::Result<T, SceneError>;
 
@@ -28,7 +30,7 @@ impl Table {
     }
 
     pub fn text(&self, key: &'static str) -> Result<Option<String>> {
-        match self.get(key).map(|node| &node.value) {
+        match self.node(key).map(|node| &node.value) {
             None => Ok(None),
             Some(Value::Text(text)) => Ok(Some(text.clone())),
             Some(other) => self.wrong(key, "text", other),
@@ -49,42 +51,31 @@ impl Table {
         key: &'static str,
         words: &[&'static str],
     ) -> Result<Option<&'static str>> {
-        let Some(node) = self.get(key) else { return Ok(None) };
+        let Some(node) = self.node(key) else { return Ok(None) };
         let found =
             words.iter().find(|word| matches!(&node.value, Value::Text(text) if text == *word));
         match found {
             Some(word) => Ok(Some(word)),
-            None => self.wrong(key, format_args!("one of {}", quoted(words)), &node.value),
+            None => {
+                let given = node.value.text().unwrap_or_default();
+                let near = did_you_mean(given, words.iter().copied());
+                let got = &node.value;
+                Err(self.error(key, format!("expected one of {}, got {got}{near}", quoted(words))))
+            }
         }
     }
 
-    /// What one of a list of words stands for.
-    pub fn word<T: Copy>(
-        &self,
-        key: &'static str,
-        words: &[(&'static str, T)],
-    ) -> Result<Option<T>> {
-        let names: Vec<_> = words.iter().map(|(name, _)| *name).collect();
-        let chosen = self.choice(key, &names)?;
-        let value =
-            |chosen| words.iter().find(|(name, _)| *name == chosen).map(|(_, value)| *value);
-        Ok(chosen.and_then(value))
-    }
-
     pub fn number(&self, key: &'static str, limits: Limits) -> Result<Option<f64>> {
-        let Some(node) = self.get(key) else { return Ok(None) };
+        let Some(node) = self.node(key) else { return Ok(None) };
         match node.value.number().filter(|number| limits.holds(*number)) {
             Some(number) => Ok(Some(number)),
             None => self.wrong(key, limits, &node.value),
         }
     }
 
-    pub fn number_or(&self, key: &'static str, limits: Limits, default: f64) -> Result<f64> {
-        Ok(self.number(key, limits)?.unwrap_or(default))
-    }
-
-    pub fn whole(&self, key: &'static str, low: u64, high: u64) -> Result<Option<u64>> {
-        let Some(node) = self.get(key) else { return Ok(None) };
+    /// An integer, of the kind that says its least and its greatest.
+    pub fn whole(&self, key: &'static str, kind: Kind) -> Result<Option<u64>> {
+        let (Some(node), Kind::Whole(low, high)) = (self.node(key), kind) else { return Ok(None) };
         match node.value {
             Value::Integer(whole)
                 if (low..=high).contains(&u64::try_from(whole).unwrap_or(u64::MAX))
@@ -98,7 +89,7 @@ impl Table {
 
     /// The table at `key`; `false` counts as absent.
     pub fn table(&self, key: &'static str) -> Result<Option<&Table>> {
-        match self.get(key).map(|node| &node.value) {
+        match self.node(key).map(|node| &node.value) {
             None => Ok(None),
             Some(Value::Table(table)) => Ok(Some(table)),
             Some(other) => self.wrong(key, "a table", other),
@@ -129,8 +120,11 @@ impl Table {
                         Some(known) => {
                             self.error(key, format!("expected {known}, since a key names its unit"))
                         }
-                        None => self
-                            .error(key, format!("unknown key, expected one of {}", quoted(&known))),
+                        None => {
+                            let near = did_you_mean(key, known.iter().copied());
+                            let known = quoted(&known);
+                            self.error(key, format!("unknown key, expected one of {known}{near}"))
+                        }
                     });
                 }
                 Value::Table(table) => errors.extend(table.unknown()),

@@ -58,6 +58,11 @@ impl Node {
 }
 
 impl Value {
+    /// The text, where it is one.
+    pub fn text(&self) -> Option<&str> {
+        if let Value::Text(text) = self { Some(text) } else { None }
+    }
+
     /// An integer is a number too: `500` and `500.0` mean the same.
     pub fn number(&self) -> Option<f64> {
         match *self {
@@ -168,9 +173,26 @@ impl Table {
         self.entries.iter().map(|(key, (node, _))| (key.as_str(), node))
     }
 
+    /// Dotted paths of the keys that were asked for, here and in the tables below.
+    pub fn asked(&self) -> Vec<String> {
+        let mut asked: Vec<_> =
+            self.known.borrow().iter().map(|key| join(&self.path, key)).collect();
+        for (node, _) in self.entries.values().filter(|_| !self.free.get()) {
+            match &node.value {
+                Value::Table(table) => asked.extend(table.asked()),
+                Value::List(list) => asked.extend(list.iter().flat_map(|item| match &item.value {
+                    Value::Table(table) => table.asked(),
+                    _ => Vec::new(),
+                })),
+                _ => {}
+            }
+        }
+        asked
+    }
+
     /// The value at `key`, if it is there; `false` counts as absent, which is how an override takes
     /// a key away.
-    pub fn get(&self, key: &'static str) -> Option<&Node> {
+    pub fn node(&self, key: &'static str) -> Option<&Node> {
         self.ask(key).filter(|node| !matches!(node.value, Value::Flag(false)))
     }
 

@@ -28,8 +28,12 @@ pub(super) fn check(data: &[u8]) -> bool {
             Some(SweepStep::Run { line, .. }) => chunk(&line),
             _ => Ok(()),
         },
+        Command::Reference(args) => {
+            args.key.as_deref().map(hapticore::reference::markdown).transpose().map(drop)
+        }
         // No option of theirs has a reader of its own.
         Command::Scenes(_)
+        | Command::New(_)
         | Command::Codes(_)
         | Command::Calibrate(_)
         | Command::Live(_)

@@ -17,6 +17,7 @@ mod live;
 mod messages;
 mod printed_loop;
 mod recorders;
+mod reference;
 mod runs;
 mod stability;
 mod streams;

@@ -4,6 +4,7 @@
 use std::collections::HashSet;
 
 use anyhow::{Context, Result, anyhow, bail};
+use hapticore_scene::did_you_mean;
 
 /// A table of numbers.
 #[derive(Debug, Clone)]
@@ -79,7 +80,12 @@ impl Table {
         match self.names.iter().find(|name| !known.contains(&name.as_str())) {
             None => Ok(()),
             Some(name) => {
-                bail!("{}:1: {name}: unknown column, expected {}", self.file, known.join(", "))
+                let near = did_you_mean(name, known.iter().copied());
+                bail!(
+                    "{}:1: {name}: unknown column, expected {}{near}",
+                    self.file,
+                    known.join(", ")
+                )
             }
         }
     }

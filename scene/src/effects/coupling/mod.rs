@@ -33,14 +33,19 @@ use super::sheet::mesh::Mesh;
 use super::sheet::network::{self, Correction, Network};
 use super::sheet::{Following, OfSheet, Sheet};
 use super::shunt::{self, Screened};
-use super::spec::{Level, Spec};
+use super::spec::{Level, Rung, Spec};
 use crate::device::Device;
 use crate::error::SceneError;
-use crate::format::Table;
+use crate::format::{Table, keys};
 use crate::terminals::PerTerminal;
 
 /// Spacing of the mesh that a non-uniform film's G comes from, m.
 const SPACING_M: f64 = 0.01;
+
+keys! { KEYS:
+    /// Whether the other pads answer the selected one alone, or each other, too.
+    RUNG: Option<&'static str> = Rung::choice("rung", || vec!["once", "full"]).usually("full");
+}
 
 pub(super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneError> {
     let Some(table) = root.table("coupling")? else { return Ok(None) };
@@ -67,7 +72,7 @@ pub(super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneE
         (false, _) => [2.7e4, 2.7e4],
     };
     let levels = vec![level("once", once_ns, true), level("full", full_ns, false)];
-    Spec::with_levels("coupling", Some(table), levels, "full")
+    Spec::with_levels("coupling", Some(table), &RUNG, levels, "full")
 }
 
 /// The field of a sheet, with a shunt of ωc or none.

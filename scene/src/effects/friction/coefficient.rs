@@ -4,17 +4,17 @@
 //!
 //!   μ(t) = μ·drift(t)
 //!
-//! ```toml
-//! [friction]
-//! drift = { timeline = [[0, 1], [60, 1.2]] }   # over time; see `stimulus`
-//! ```
-//!
 //! The truth is of μ(t): force and friction. ± 20 % is ± 0.14 N at 0.7 N (docs/physics.md §4).
 
 use crate::device::Device;
 use crate::error::SceneError;
-use crate::format::{Limits, Table};
+use crate::format::{Key, Limits, Table, keys};
 use crate::stimulus::{Moment, Stimulus};
+
+keys! { KEYS:
+    /// Factor of `device.mu` over time: wear, warmth, moisture.
+    DRIFT: Option<Stimulus> = Key::over_time("drift", Limits::within(0.0, 100.0)).usually("1");
+}
 
 /// μ over time.
 #[derive(Clone, Debug)]
@@ -26,7 +26,7 @@ pub(super) struct Coefficient {
 impl Coefficient {
     /// Reads `friction.drift`.
     pub fn read(table: &Table, device: &Device) -> Result<Coefficient, SceneError> {
-        let drift = Stimulus::read(table, "drift", Limits::within(0.0, 100.0))?;
+        let drift = table.get(&DRIFT)?;
         match drift.as_ref().is_none_or(|drift| drift.points() == 1) {
             true => Ok(Coefficient { nominal: device.mu, drift }),
             false => Err(table.error(

@@ -23,11 +23,12 @@ mod moving;
 
 use super::effect::{Effect, PadEffect};
 use super::pad::Pad;
-use super::spec::{Level, Setting, Spec};
+use super::spec::{Level, Rung, Setting, Spec};
 use crate::device::Device;
 use crate::error::SceneError;
-use crate::format::{Limits, Table};
+use crate::format::{Key, Limits, Table, keys};
 use coefficient::Coefficient;
+pub(crate) use coefficient::KEYS as DRIFT_KEYS;
 use law::{Law, Surface};
 use moving::Moving;
 
@@ -35,16 +36,32 @@ use moving::Moving;
 const LAWS: [(&str, Law, f64); 3] =
     [("stiction", Law::Stiction, 600.0), ("dahl", Law::Dahl, 4e3), ("lugre", Law::LuGre, 5e3)];
 
+keys! { KEYS:
+    /// Law of friction: `coulomb` prescribes the pad's motion; `stiction` sticks and slides, `dahl` bends bristles first,
+    /// `lugre` adds the Stribeck fall and the bristles' damping.
+    RUNG: Option<&'static str> =
+        Rung::choice("rung", || [&["coulomb"][..], &LAWS.map(|(word, ..)| word)[..]].concat()).usually("lugre with [hand], else coulomb");
+    /// Friction before the pad slides, by that of sliding.
+    STICTION: f64 = Key::number("stiction", Limits::within(1.0, 10.0)).or(1.2);
+    /// Stribeck velocity: at this speed the excess of `stiction` has fallen to 1/e.
+    STRIBECK: f64 = Key::number("stribeck_mm_per_s", Limits::within(1e-6, 1e6)).or(10.0);
+    /// Stiffness of the bristles.
+    BRISTLE_N_PER_M: f64 = Key::number("bristle_n_per_m", Limits::within(1e-3, 1e12)).or(1e5);
+    /// Damping of the bristles.
+    BRISTLE_N_S_PER_M: f64 = Key::number("bristle_n_s_per_m", Limits::within(0.0, 1e9)).or(300.0);
+    /// Time step.
+    STEP_US: f64 = Key::number("step_us", Limits::within(1.0, 1000.0)).or(100.0);
+}
+
 pub(super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneError> {
     let Some(table) = root.table("friction")? else { return Ok(None) };
     let surface = Surface {
-        stiction: table.number_or("stiction", Limits::within(1.0, 10.0), 1.2)?,
-        stribeck_m_s: 1e-3
-            * table.number_or("stribeck_mm_per_s", Limits::within(1e-6, 1e6), 10.0)?,
-        bristle_n_per_m: table.number_or("bristle_n_per_m", Limits::within(1e-3, 1e12), 1e5)?,
-        bristle_n_s_per_m: table.number_or("bristle_n_s_per_m", Limits::within(0.0, 1e9), 300.0)?,
+        stiction: table.get(&STICTION)?,
+        stribeck_m_s: 1e-3 * table.get(&STRIBECK)?,
+        bristle_n_per_m: table.get(&BRISTLE_N_PER_M)?,
+        bristle_n_s_per_m: table.get(&BRISTLE_N_S_PER_M)?,
     };
-    let step_s = 1e-6 * table.number_or("step_us", Limits::within(1.0, 1000.0), 100.0)?;
+    let step_s = 1e-6 * table.get(&STEP_US)?;
     let mu = Coefficient::read(table, device)?;
     let newton_per_g = device.weight_n(1.0);
     let coulomb = {
@@ -61,7 +78,7 @@ pub(super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneE
     }
     let has_hand = root.table("hand")?.is_some();
     let usual = if has_hand { "lugre" } else { "coulomb" };
-    let spec = Spec::with_levels("friction", Some(table), levels, usual)?;
+    let spec = Spec::with_levels("friction", Some(table), &RUNG, levels, usual)?;
     if has_hand && spec.as_ref().is_some_and(|spec| spec.is_at("coulomb")) {
         let message = "expected \"stiction\", \"dahl\" or \"lugre\" with [hand], whose pad moves against friction, got \"coulomb\"";
         return Err(table.error("rung", message));

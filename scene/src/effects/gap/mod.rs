@@ -34,7 +34,9 @@ mod read_rubber;
 mod rubber;
 
 pub use compression::Compression;
+pub(crate) use read::KEYS;
 pub(super) use read::{read, read_raised};
+pub(crate) use read_rubber::RUBBER_KEYS;
 
 #[cfg(test)]
 mod tests;

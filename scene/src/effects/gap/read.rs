@@ -9,10 +9,10 @@ use super::read_rubber::read_rubber;
 use super::rubber::Rubber;
 use crate::device::Device;
 use crate::effects::effect::Effect;
-use crate::effects::spec::{Level, Setting, Spec};
+use crate::effects::spec::{Level, Rung, Setting, Spec};
 use crate::effects::temperature;
 use crate::error::SceneError;
-use crate::format::{Limits, Table};
+use crate::format::{Key, Limits, Table, keys};
 use crate::wave::HapticWave;
 
 /// The longest step, µs.
@@ -35,6 +35,21 @@ const LEVELS: [(&str, Motion, f64); 7] = [
     ("tr-bdf2", Motion::Dynamic(Method::TrBdf2), 6.9e3),
 ];
 
+keys! { KEYS:
+    /// How the gap is computed: at rest (`static`, `hysteresis`) or in motion; `moving` leaves the level of the moving gap to
+    /// the error budget.
+    RUNG: Option<&'static str> = Rung::choice("rung", words).usually("tr-bdf2 with [control], else static");
+    /// Whether the attraction follows the RMS of the haptic voltage or its sine.
+    DRIVE: &'static str = Key::choice("drive", || vec!["rms", "sine"]).or("rms");
+    /// Time step; at most 1000, of `semi-implicit` at most 200.
+    STEP_US: Option<f64> = Key::number("step_us", Limits::within(0.01, 1e9)).usually("100 in motion, else 1000");
+}
+
+/// The words of `rung`.
+fn words() -> Vec<&'static str> {
+    LEVELS.iter().map(|(word, ..)| *word).chain([MOVING.0]).collect()
+}
+
 pub(in super::super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneError> {
     read_raised(root, device, 0.0)
 }
@@ -46,14 +61,13 @@ pub(in super::super) fn read_raised(
     raised: f64,
 ) -> Result<Option<Spec>, SceneError> {
     let Some(table) = root.table("gap")? else { return Ok(None) };
-    let words = LEVELS.iter().map(|(word, ..)| *word).chain([MOVING.0]).collect::<Vec<_>>();
-    let named = table.choice("rung", &words)?;
+    let named = table.get(&RUNG)?;
     let rubber = read_rubber(table, device)?.raised(raised);
     if raised != 0.0 && rubber.patches.iter().all(|patch| patch.load_share > 0.0) {
         let message = "expected a patch that bears no load, with halves.height_mismatch_percent, which raises these";
         return Err(table.error("load_shares", message));
     }
-    let sine = table.choice("drive", &["rms", "sine"])? == Some("sine");
+    let sine = table.get(&DRIVE)? == "sine";
     if sine && device.haptic_wave != HapticWave::Sine {
         let got = device.haptic_wave.name();
         let message = format!("expected \"rms\" where carrier.haptic_wave is no sine, got {got:?}");
@@ -62,7 +76,7 @@ pub(in super::super) fn read_raised(
     let stiffest = temperature::stiffest(root)?;
     let led = stiffest.is_some() || root.table("charge")?.is_some() || is_tilted(root)?;
     let sine_rad_s = sine.then_some(TAU * device.haptic_hz);
-    let asked_us = table.number("step_us", Limits::within(0.01, 1e9))?;
+    let asked_us = table.get(&STEP_US)?;
     let mut levels = Vec::new();
     for (word, motion, cost_ns) in LEVELS {
         let asked_us = asked_us.filter(|_| named == Some(word));
@@ -97,16 +111,16 @@ pub(in super::super) fn read_raised(
     }
     // A loop acts on a pad faster than its gap follows: with a gap that settles immediately it swings, or
     // seems calmer than it is.
-    let usual = if root.get("control").is_some() { MOVING.1 } else { "static" };
-    Spec::with_questions("gap", Some(table), levels, usual, &[MOVING])
+    let usual = if root.node("control").is_some() { MOVING.1 } else { "static" };
+    Spec::with_questions("gap", Some(table), &RUNG, levels, usual, &[MOVING])
 }
 
 /// Whether the hand tilts the pad, so that its force, which is kept at times of its own, acts on the patches.
 fn is_tilted(root: &Table) -> Result<bool, SceneError> {
-    let Some(halves) = root.table("halves")?.filter(|_| root.get("hand").is_some()) else {
+    let Some(halves) = root.table("halves")?.filter(|_| root.node("hand").is_some()) else {
         return Ok(false);
     };
-    let height_mm = halves.get("push_height_mm").and_then(|node| node.value.number());
+    let height_mm = halves.node("push_height_mm").and_then(|node| node.value.number());
     Ok(height_mm != Some(0.0))
 }
 

@@ -1,15 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The pad's rubber as `[gap]` writes it: heights, shares of area and load, and the law's numbers.
 //!
-//! ```toml
-//! [gap]
-//! rest_um = [12, 30, 40]          # heights g₀ + d of the patches
-//! area_shares = [0.4, 0.3, 0.3]   # of the pad's area, their sum 1
-//! load_shares = [2.5, 0, 0]       # load per area over the pad's; each times its area share, their sum 1
-//! contact_hardness_pa = 3.6e6     # opt-in: parts of a patch touch the film, and attract as across the insulators alone
-//! haptic_permittivity = 3.2       # of the insulators at the haptic frequency; insulator_permittivity is the carrier's
-//! ```
-//!
 //! The defaults are a device that shows what the paper says (docs/physics.md §3). A single height needs no shares. Other
 //! heights need shares of their own: which patches are crests and which spots is part of the device.
 
@@ -19,7 +10,7 @@ use super::law::{Law, Patch};
 use super::rubber::Rubber;
 use crate::device::Device;
 use crate::error::SceneError;
-use crate::format::{Limits, Table};
+use crate::format::{Key, Limits, Table, keys};
 
 /// Heights g₀ + d of the patches, µm: the sixth and the seventh are fitted to the jumps of the paper's Fig. 7
 /// (docs/physics.md §3).
@@ -37,14 +28,49 @@ const SHARES_OFF: f64 = 1e-3;
 /// Viscosity of air, Pa·s.
 const AIR_PA_S: f64 = 1.8e-5;
 
+keys! { RUBBER_KEYS:
+    /// Thickness of the insulators between pad and film.
+    INSULATOR_UM: f64 = Key::number("insulator_um", Limits::within(0.01, 1e4)).or(16.0);
+    /// Relative permittivity of the insulators at the carrier's frequency.
+    INSULATOR_PERMITTIVITY: f64 = Key::number("insulator_permittivity", Limits::within(1.0, 1e5)).or(3.2);
+    /// Relative permittivity of the insulators at the haptic frequency.
+    HAPTIC_PERMITTIVITY: Option<f64> =
+        Key::number("haptic_permittivity", Limits::within(1.0, 1e5)).usually("`insulator_permittivity`");
+    /// Heights of the patches above the film, without load, more than the insulators by their permittivity.
+    REST: Vec<f64> = Key::numbers("rest_um", Limits::above(0.0, 1e4)).or(&REST_UM);
+    /// Share of the pad's area that each patch has; their sum is 1.
+    AREA: Option<Vec<f64>> = Key::numbers("area_shares", Limits::above(0.0, 1.0)).usually("those of the default heights");
+    /// Load per area of each patch over the pad's; each times its area share, their sum is 1.
+    LOAD: Option<Vec<f64>> = Key::numbers("load_shares", Limits::within(0.0, 1e6)).usually("those of the default heights");
+    /// Viscosity of the air film.
+    FILM_PA_S: f64 = Key::number("film_pa_s", Limits::within(1e-9, 1e3)).or(AIR_PA_S);
+    /// Area of the air film's disc, over the pad's.
+    FILM_AREA_SHARE: f64 = Key::number("film_area_share", Limits::within(1e-6, 10.0)).or(0.4);
+    /// Air film that is left in contact.
+    FILM_REST_UM: f64 = Key::number("film_rest_um", Limits::within(1e-3, 1e3)).or(0.7);
+    /// Hardness of contact spots, which attract as across the insulators alone.
+    CONTACT_HARDNESS_PA: Option<f64> = Key::number("contact_hardness_pa", Limits::within(1e3, 1e15));
+    /// Stiffness of the rubber under a patch.
+    SPRING_PA_PER_M: f64 = Key::number("spring_pa_per_m", Limits::within(1e3, 1e15)).or(4.5e7);
+    /// Pressure of the contact at a gap of zero.
+    CONTACT_PA: f64 = Key::number("contact_pa", Limits::within(0.0, 1e10)).or(2e5);
+    /// Gap over which the contact's pressure falls to 1/e.
+    CONTACT_DECAY_UM: f64 = Key::number("contact_decay_um", Limits::within(1e-3, 1e3)).or(1.25);
+    /// Creep of the rubber, as a share of its spring.
+    CREEP_SHARE: f64 = Key::number("creep_share", Limits::within(0.0, 1e4)).or(0.6);
+    /// Time constant of the creep.
+    CREEP_S: f64 = Key::number("creep_s", Limits::within(1e-6, 1e6)).or(1.5);
+    /// Mass per area that moves with a patch.
+    INERTIA_KG_M2: f64 = Key::number("inertia_kg_m2", Limits::within(1e-3, 1e6)).or(7.0);
+}
+
 pub(super) fn read_rubber(table: &Table, device: &Device) -> Result<Rubber, SceneError> {
-    let thickness_um = table.number_or("insulator_um", Limits::within(0.01, 1e4), 16.0)?;
-    let permittivity = table.number_or("insulator_permittivity", Limits::within(1.0, 1e5), 3.2)?;
+    let thickness_um = table.get(&INSULATOR_UM)?;
+    let permittivity = table.get(&INSULATOR_PERMITTIVITY)?;
     let insulator_um = thickness_um / permittivity;
     let rest_um = read_heights(table, insulator_um)?;
     let shares = Shares::read(table, &rest_um)?;
-    let haptic_permittivity =
-        table.number_or("haptic_permittivity", Limits::within(1.0, 1e5), permittivity)?;
+    let haptic_permittivity = table.get(&HAPTIC_PERMITTIVITY.or(permittivity))?;
     let haptic_insulator_um = thickness_um / haptic_permittivity;
     let law = read_law(table, [insulator_um, haptic_insulator_um], device)?;
     let rest_m = rest_um.iter().map(|um| 1e-6 * (um - insulator_um));
@@ -57,7 +83,7 @@ pub(super) fn read_rubber(table: &Table, device: &Device) -> Result<Rubber, Scen
 /// g₀ + d of the patches, above the insulators.
 fn read_heights(table: &Table, insulator_um: f64) -> Result<Vec<f64>, SceneError> {
     let heights = Limits::above(insulator_um, 1e4);
-    let rest_um = table.numbers("rest_um", heights)?.unwrap_or(REST_UM.to_vec());
+    let rest_um = table.get(&REST.within(heights))?;
     let Some(height) = rest_um.iter().find(|height| !heights.holds(**height)) else {
         return Ok(rest_um);
     };
@@ -70,22 +96,22 @@ fn read_heights(table: &Table, insulator_um: f64) -> Result<Vec<f64>, SceneError
 
 /// The law, of insulators that are so much air at the carrier's and at the haptic frequency.
 fn read_law(table: &Table, insulators_um: [f64; 2], device: &Device) -> Result<Law, SceneError> {
-    let film_pa_s = table.number_or("film_pa_s", Limits::within(1e-9, 1e3), AIR_PA_S)?;
-    let film_area_share = table.number_or("film_area_share", Limits::within(1e-6, 10.0), 0.4)?;
+    let film_pa_s = table.get(&FILM_PA_S)?;
+    let film_area_share = table.get(&FILM_AREA_SHARE)?;
     let [insulator_m, haptic_insulator_m] = insulators_um.map(|um| 1e-6 * um);
-    let hardness_pa = table.number("contact_hardness_pa", Limits::within(1e3, 1e15))?;
+    let hardness_pa = table.get(&CONTACT_HARDNESS_PA)?;
     Ok(Law {
-        spring_pa_per_m: table.number_or("spring_pa_per_m", Limits::within(1e3, 1e15), 4.5e7)?,
-        contact_pa: table.number_or("contact_pa", Limits::within(0.0, 1e10), 2e5)?,
+        spring_pa_per_m: table.get(&SPRING_PA_PER_M)?,
+        contact_pa: table.get(&CONTACT_PA)?,
         contact_decay_m: 1e-6 * read_contact_decay_um(table, insulators_um[1], hardness_pa)?,
-        creep_share: table.number_or("creep_share", Limits::within(0.0, 1e4), 0.6)?,
-        creep_s: table.number_or("creep_s", Limits::within(1e-6, 1e6), 1.5)?,
+        creep_share: table.get(&CREEP_SHARE)?,
+        creep_s: table.get(&CREEP_S)?,
         insulator_m,
         haptic_insulator_m,
         contact_hardness_pa: hardness_pa.unwrap_or(f64::INFINITY),
         film_n_s: 1.5 * film_pa_s * film_area_share * device.pad_area_m2 / PI,
-        film_rest_m: 1e-6 * table.number_or("film_rest_um", Limits::within(1e-3, 1e3), 0.7)?,
-        inertia_kg_m2: table.number_or("inertia_kg_m2", Limits::within(1e-3, 1e6), 7.0)?,
+        film_rest_m: 1e-6 * table.get(&FILM_REST_UM)?,
+        inertia_kg_m2: table.get(&INERTIA_KG_M2)?,
     })
 }
 
@@ -95,7 +121,7 @@ fn read_contact_decay_um(
     insulator_um: f64,
     hardness_pa: Option<f64>,
 ) -> Result<f64, SceneError> {
-    let decay_um = table.number_or("contact_decay_um", Limits::within(1e-3, 1e3), 1.25)?;
+    let decay_um = table.get(&CONTACT_DECAY_UM)?;
     if hardness_pa.is_some() || decay_um <= 0.5 * insulator_um {
         return Ok(decay_um);
     }
@@ -121,26 +147,27 @@ impl Shares {
             heights => (heights == REST_UM).then(|| of_eight.to_vec()),
         };
         let heights = rest_um.len();
-        let read = |key: &'static str, limits, of_eight| {
+        let read = |key: &Key<Option<Vec<f64>>>, of_eight| {
+            let name = key.about.name;
             let message = |got: &str| {
                 format!("expected {heights} numbers, one for each height of gap.rest_um, got {got}")
             };
-            let shares = match table.numbers(key, limits)? {
+            let shares = match table.get(key)? {
                 Some(shares) => shares,
                 None => usual(of_eight).ok_or_else(|| {
                     let got = "none, and the default shares are for the default heights only";
-                    table.error(key, message(&format!("{got}; set gap.{key}")))
+                    table.error(name, message(&format!("{got}; set gap.{name}")))
                 })?,
             };
             let got = shares.len();
             if got == heights {
                 Ok(shares)
             } else {
-                Err(table.error(key, message(&got.to_string())))
+                Err(table.error(name, message(&got.to_string())))
             }
         };
-        let mut area = read("area_shares", Limits::above(0.0, 1.0), AREA_SHARES)?;
-        let mut load = read("load_shares", Limits::within(0.0, 1e6), LOAD_SHARES)?;
+        let mut area = read(&AREA, AREA_SHARES)?;
+        let mut load = read(&LOAD, LOAD_SHARES)?;
         let all: f64 = area.iter().sum();
         check_sum(table, "area_shares", "shares of the pad's area whose sum is 1", all)?;
         area.iter_mut().for_each(|share| *share /= all);

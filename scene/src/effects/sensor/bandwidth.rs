@@ -10,11 +10,11 @@ use super::super::pad::Pad;
 use super::super::spec::{Setting, Spec};
 use crate::device::Device;
 use crate::error::SceneError;
-use crate::format::{Limits, Table};
+use crate::format::Table;
 use crate::rotor::Rotor;
 
 pub(in super::super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError> {
-    let Some(khz) = super::key(root, "bandwidth_khz", Limits::within(1e-3, 1e6))? else {
+    let Some(khz) = super::key(root, &super::BANDWIDTH_KHZ)? else {
         return Ok(None);
     };
     let build = move |setting: &Setting| {

@@ -9,10 +9,10 @@ use super::super::pad::Pad;
 use super::super::spec::{Setting, Spec};
 use crate::device::Device;
 use crate::error::SceneError;
-use crate::format::{Limits, Table};
+use crate::format::Table;
 
 pub(in super::super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError> {
-    let Some(percent) = super::key(root, "crosstalk_percent", Limits::within(0.0, 50.0))? else {
+    let Some(percent) = super::key(root, &super::CROSSTALK_PERCENT)? else {
         return Ok(None);
     };
     let build = move |_: &Setting| Effect::Channels(Box::new(Crosstalk(percent / 100.0)));

@@ -7,13 +7,12 @@ use super::super::pad::Pad;
 use super::super::spec::{Setting, Spec};
 use crate::device::Device;
 use crate::error::SceneError;
-use crate::format::{Limits, Table};
+use crate::format::Table;
 use crate::random::{Purpose, normals};
 use crate::terminals::PerTerminal;
 
 pub(in super::super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError> {
-    let Some(percent) = super::key(root, "gain_mismatch_percent", Limits::within(0.0, 50.0))?
-    else {
+    let Some(percent) = super::key(root, &super::GAIN_MISMATCH_PERCENT)? else {
         return Ok(None);
     };
     Ok(Spec::new("sensor.gain", format!("{percent} %"), move |setting| {

@@ -11,10 +11,10 @@ use super::super::pad::Pad;
 use super::super::spec::{Setting, Spec};
 use crate::device::Device;
 use crate::error::SceneError;
-use crate::format::{Limits, Table};
+use crate::format::Table;
 
 pub(in super::super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError> {
-    let Some(mh) = super::key(root, "series_inductance_mh", Limits::within(0.0, 1e3))? else {
+    let Some(mh) = super::key(root, &super::SERIES_INDUCTANCE_MH)? else {
         return Ok(None);
     };
     let build = move |setting: &Setting| {

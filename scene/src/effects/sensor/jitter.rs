@@ -16,13 +16,13 @@ use super::super::spec::{Setting, Spec};
 use super::noise::{HANN_NENBW, Source};
 use crate::device::Device;
 use crate::error::SceneError;
-use crate::format::{Limits, Table};
+use crate::format::Table;
 use crate::random::{Purpose, normal};
 use crate::rotor::Rotor;
 use crate::terminals::MOST_CHANNELS;
 
 pub(in super::super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError> {
-    let Some(ns) = super::key(root, "jitter_ns_rms", Limits::within(0.0, 1e3))? else {
+    let Some(ns) = super::key(root, &super::JITTER_NS_RMS)? else {
         return Ok(None);
     };
     let build = move |setting: &Setting| Effect::Channels(Box::new(Jitter::new(ns, setting)));

@@ -21,7 +21,7 @@ use crate::wave::HapticWave;
 
 pub(in super::super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneError> {
     let Some(table) = root.table("sensor")? else { return Ok(None) };
-    let on = table.flag("haptic_leakage")?;
+    let on = table.get(&super::HAPTIC_LEAKAGE)?;
     if on && device.haptic_wave != HapticWave::Sine {
         let got = device.haptic_wave.name();
         return Err(table.error("haptic_leakage", format!("expected carrier.haptic_wave = \"sine\" with it, whose current alone is known here, got {got:?}")));

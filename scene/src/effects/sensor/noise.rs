@@ -26,7 +26,7 @@ use super::super::pad::Pad;
 use super::super::spec::{Setting, Spec};
 use crate::device::Device;
 use crate::error::SceneError;
-use crate::format::{Limits, Table};
+use crate::format::Table;
 use crate::random::{Origin, Purpose, Stream, normal, stream};
 use crate::terminals::MOST_CHANNELS;
 
@@ -35,7 +35,7 @@ pub(super) const HANN_NENBW: f64 = 1.5;
 
 /// Reads `sensor.noise_ppm_rms`: ADC noise on every channel.
 pub(in super::super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError> {
-    let Some(ppm) = super::key(root, "noise_ppm_rms", Limits::within(0.0, 1e6))? else {
+    let Some(ppm) = super::key(root, &super::NOISE_PPM_RMS)? else {
         return Ok(None);
     };
     let build = move |setting: &Setting| {
@@ -46,10 +46,8 @@ pub(in super::super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, S
 
 /// Reads `sensor.noise_density_na_per_rthz`: noise of the current sensors.
 pub(in super::super) fn read_density(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError> {
-    let density = super::key(root, "noise_density_na_per_rthz", Limits::within(0.0, 1e6))?;
-    let (Some(na), bandwidth_khz) =
-        (density, super::key(root, "bandwidth_khz", Limits::within(1e-3, 1e6))?)
-    else {
+    let density = super::key(root, &super::NOISE_DENSITY)?;
+    let (Some(na), bandwidth_khz) = (density, super::key(root, &super::BANDWIDTH_KHZ)?) else {
         return Ok(None);
     };
     let build = move |setting: &Setting| {
@@ -67,7 +65,7 @@ pub(in super::super) fn read_density(root: &Table, _: &Device) -> Result<Option<
 
 /// Reads `sensor.dither_lsb_rms`: noise before quantisation.
 pub(in super::super) fn read_dither(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError> {
-    let Some(lsb) = super::key(root, "dither_lsb_rms", Limits::within(0.0, 1e3))? else {
+    let Some(lsb) = super::key(root, &super::DITHER_LSB_RMS)? else {
         return Ok(None);
     };
     let Some(codes) = super::quantisation::codes(root)? else {

@@ -19,10 +19,10 @@ use crate::terminals::PerTerminal;
 
 pub(in super::super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError> {
     let Some(table) = root.table("sensor")? else { return Ok(None) };
-    if !table.flag("haptic_leakage_of_others")? {
+    if !table.get(&super::HAPTIC_LEAKAGE_OF_OTHERS)? {
         return Ok(None);
     }
-    if !table.flag("haptic_leakage")? {
+    if !table.get(&super::HAPTIC_LEAKAGE)? {
         let message =
             "expected haptic_leakage = true too, since the pad's own current is the first";
         return Err(table.error("haptic_leakage_of_others", message));

@@ -23,7 +23,7 @@ pub(in super::super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, S
 /// Codes per full scale, where there are codes.
 pub(super) fn codes(root: &Table) -> Result<Option<f64>, SceneError> {
     let bits =
-        root.table("sensor")?.map_or(Ok(None), |table| table.whole("quantisation_bits", 2, 32))?;
+        root.table("sensor")?.map_or(Ok(None), |table| table.get(&super::QUANTISATION_BITS))?;
     Ok(bits.map(|bits| (1u64 << (bits - 1)) as f64))
 }
 

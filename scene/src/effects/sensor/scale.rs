@@ -7,10 +7,10 @@ use super::super::pad::Pad;
 use super::super::spec::{Setting, Spec};
 use crate::device::Device;
 use crate::error::SceneError;
-use crate::format::{Limits, Table};
+use crate::format::Table;
 
 pub(in super::super) fn read(root: &Table, _: &Device) -> Result<Option<Spec>, SceneError> {
-    let Some(percent) = super::key(root, "gain_error_percent", Limits::within(-50.0, 50.0))? else {
+    let Some(percent) = super::key(root, &super::GAIN_ERROR_PERCENT)? else {
         return Ok(None);
     };
     let build = move |_: &Setting| Effect::Channels(Box::new(Scale(1.0 + percent / 100.0)));

@@ -1,24 +1,30 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The film's resistance per square: even, or sloping, with rectangles of another one.
-//!
-//! ```toml
-//! [sheet]
-//! ohm_per_square = 150
-//! slope_percent = [10, -4]        # from left to right and from bottom to top, of the middle's
-//! [[sheet.patch]]                 # the last one that covers a place holds
-//! centre_mm = [200, 50]
-//! size_mm = [120, 80]
-//! ohm_per_square = 300
-//! ```
 
 use super::disc::Disc;
 use crate::effects::pad::FilmChange;
 use crate::error::SceneError;
-use crate::format::{Limits, Table};
+use crate::format::{Key, Limits, Table, keys};
 
 /// What a film may have, Ω per square: metal foil to a film that no longer conducts. Farther apart, patches of a
 /// mesh leave its matrix without a factor.
 const OHM_PER_SQUARE: Limits = Limits::within(1e-3, 1e7);
+
+keys! { KEYS:
+    /// Resistance of the film, in its middle where it slopes.
+    MIDDLE_OHM: f64 = Key::number("ohm_per_square", OHM_PER_SQUARE).or(150.0);
+    /// Rise of the resistance from left to right and from bottom to top, of the middle's.
+    SLOPE_PERCENT: [f64; 2] = Key::pair("slope_percent", Limits::within(-90.0, 90.0)).or(&[0.0; 2]);
+}
+
+keys! { PATCH_KEYS:
+    /// Centre of the patch, from the sheet's.
+    CENTRE_MM: [f64; 2] = Key::pair("centre_mm", Limits::within(-1e4, 1e4)).required("[x, y]");
+    /// Width and height of the patch.
+    SIZE_MM: [f64; 2] = Key::pair("size_mm", Limits::within(1e-3, 1e5)).required("[width, height]");
+    /// Resistance of the film in the patch.
+    PATCH_OHM: f64 = Key::number("ohm_per_square", OHM_PER_SQUARE).required("a number above 0");
+}
 
 /// Ohms per square over the sheet.
 #[derive(Clone, Debug)]
@@ -57,8 +63,7 @@ impl Film {
     }
 
     pub fn read(table: &Table, size_m: [f64; 2]) -> Result<Film, SceneError> {
-        let slope_percent =
-            table.pair("slope_percent", Limits::within(-90.0, 90.0))?.unwrap_or_default();
+        let slope_percent = table.get(&SLOPE_PERCENT)?;
         let middle_m = size_m.map(|size| size / 2.0);
         let patches = table.tables("patch")?;
         let patches: Vec<Patch> = patches
@@ -66,7 +71,7 @@ impl Film {
             .map(|patch| Patch::read(patch, middle_m))
             .collect::<Result<_, _>>()?;
         Ok(Film {
-            ohm_per_square: table.number_or("ohm_per_square", OHM_PER_SQUARE, 150.0)?,
+            ohm_per_square: table.get(&MIDDLE_OHM)?,
             slope_per_m: [0, 1].map(|axis| slope_percent[axis] / 100.0 / size_m[axis]),
             middle_m,
             breaks_m: [0, 1].map(|axis| breaks(&patches, axis)),
@@ -152,26 +157,12 @@ fn breaks(patches: &[Patch], axis: usize) -> Vec<f64> {
 
 impl Patch {
     fn read(table: &Table, middle_m: [f64; 2]) -> Result<Patch, SceneError> {
-        let centre_mm = table.require(
-            "centre_mm",
-            "[x, y]",
-            table.pair("centre_mm", Limits::within(-1e4, 1e4))?,
-        )?;
-        let size_mm = table.require(
-            "size_mm",
-            "[width, height]",
-            table.pair("size_mm", Limits::within(1e-3, 1e5))?,
-        )?;
-        let ohm = table.number("ohm_per_square", OHM_PER_SQUARE)?;
+        let (centre_mm, size_mm) = (table.get(&CENTRE_MM)?, table.get(&SIZE_MM)?);
         let side = |sign: f64| {
             [0, 1]
                 .map(|axis| middle_m[axis] + 1e-3 * (centre_mm[axis] + sign * size_mm[axis] / 2.0))
         };
-        Ok(Patch {
-            low_m: side(-1.0),
-            high_m: side(1.0),
-            ohm_per_square: table.require("ohm_per_square", "a number above 0", ohm)?,
-        })
+        Ok(Patch { low_m: side(-1.0), high_m: side(1.0), ohm_per_square: table.get(&PATCH_OHM)? })
     }
 
     fn covers(&self, place_m: [f64; 2]) -> bool {

@@ -6,9 +6,24 @@ use super::film::Film;
 use crate::device::Device;
 use crate::effects::pad::FilmChange;
 use crate::error::SceneError;
-use crate::format::{Limits, Node, Table, Value};
+use crate::format::{Key, Limits, Node, Table, Value, keys};
 
 pub(crate) use hapticore_sheet::uniform::OPEN;
+
+keys! { KEYS:
+    /// Resistance in series with each terminal: a number, or a list of one for each.
+    TERMINAL_OHM: Option<Vec<f64>> = Key::one_or_several("terminal_ohm", Limits::within(0.0, 1e9)).usually("0");
+    /// Terminals without a resistance, by their numbers from 1.
+    SHORTED: Option<Vec<f64>> = Key::numbers("shorted", Limits::within(1.0, 16.0));
+    /// Terminals without a current, by their numbers from 1.
+    OPEN_TERMINALS: Option<Vec<f64>> = Key::numbers("open", Limits::within(1.0, 16.0));
+    /// Radius of the terminals, at most a third of the pad's diameter.
+    TERMINAL_RADIUS_MM: f64 = Key::number("terminal_radius_mm", Limits::within(1e-3, 3.4e3)).or(1.7);
+    /// Columns of the levels that are tables.
+    TABLE_COLUMNS: Option<u64> = Key::whole("table_columns", 8, 2048).usually("the level's");
+    /// Rows of the levels that are tables.
+    TABLE_ROWS: Option<u64> = Key::whole("table_rows", 8, 2048).usually("the level's");
+}
 
 /// What `[sheet]` says.
 #[derive(Clone, Debug)]
@@ -28,16 +43,16 @@ pub(crate) struct Sheet {
 impl Sheet {
     pub fn read(table: &Table, device: &Device) -> Result<Sheet, SceneError> {
         let size_m = [device.width_mm, device.height_mm].map(|mm| mm * 1e-3);
-        let count = |key| Ok(table.whole(key, 8, 2048)?.map(|count| count as usize));
         let widest = Limits::within(1e-3, device.pad_diameter_mm / 3.0); // a pad at the edge must not lie on a terminal
         Ok(Sheet {
             size_m,
             pad_radius_m: device.pad_diameter_mm * 0.5e-3,
             film: Film::read(table, size_m)?,
             terminal_ohm: series(table, device.terminals())?,
-            terminal_radius_m: 1e-3 * table.number_or("terminal_radius_mm", widest, 1.7)?,
+            terminal_radius_m: 1e-3 * table.get(&TERMINAL_RADIUS_MM.within(widest))?,
             terminals_m: terminals_m(device),
-            table: [count("table_columns")?, count("table_rows")?],
+            table: [table.get(&TABLE_COLUMNS)?, table.get(&TABLE_ROWS)?]
+                .map(|count| count.map(|count| count as usize)),
         })
     }
 
@@ -84,11 +99,13 @@ fn terminals_m(device: &Device) -> Vec<[f64; 2]> {
 /// infinite where open.
 fn series(table: &Table, count: usize) -> Result<Vec<f64>, SceneError> {
     let mut ohm = each(table, count)?;
-    for (key, value) in [("shorted", 0.0), ("open", OPEN)] {
-        for number in table.numbers(key, Limits::within(1.0, count as f64))?.unwrap_or_default() {
+    let numbers = Limits::within(1.0, count as f64);
+    for (key, value) in [(SHORTED, 0.0), (OPEN_TERMINALS, OPEN)] {
+        let key = key.within(numbers);
+        for number in table.get(&key)?.unwrap_or_default() {
             if number.fract() != 0.0 {
                 return Err(table.error(
-                    key,
+                    key.about.name,
                     format!("expected numbers of terminals, 1 to {count}, got {number}"),
                 ));
             }
@@ -104,17 +121,17 @@ fn series(table: &Table, count: usize) -> Result<Vec<f64>, SceneError> {
 
 /// `terminal_ohm`: a number for all terminals, or a list of one for each.
 fn each(table: &Table, count: usize) -> Result<Vec<f64>, SceneError> {
-    const KEY: &str = "terminal_ohm";
-    if !matches!(table.get(KEY), Some(Node { value: Value::List(_), .. })) {
-        return Ok(vec![table.number_or(KEY, Limits::within(0.0, 1e9), 0.0)?; count]);
+    let (key, limits) = (TERMINAL_OHM.about.name, TERMINAL_OHM.about.limits());
+    if !matches!(table.node(key), Some(Node { value: Value::List(_), .. })) {
+        return Ok(vec![table.number(key, limits)?.unwrap_or(0.0); count]);
     }
-    let list = table.numbers(KEY, Limits::within(0.0, 1e9))?.unwrap_or_default();
+    let list = table.numbers(key, limits)?.unwrap_or_default();
     match list.len() == count {
         true => Ok(list),
         false => {
             let got = list.len();
             Err(table.error(
-                KEY,
+                key,
                 format!(
                     "expected a number, or one for each of {count} terminals, got a list of {got}"
                 ),

@@ -35,9 +35,9 @@ pub(crate) mod analytic;
 mod disc;
 mod distance;
 mod factor;
-mod film;
+pub(crate) mod film;
 mod following;
-pub(super) mod geometry;
+pub(crate) mod geometry;
 mod grid;
 pub(crate) mod ideal;
 mod lattice;
@@ -61,10 +61,10 @@ use mesh::Mesh;
 
 use super::effect::{Effect, PadEffect};
 use super::pad::Pad;
-use super::spec::{Level, Spec};
+use super::spec::{Level, Rung, Spec};
 use crate::device::Device;
 use crate::error::SceneError;
-use crate::format::Table;
+use crate::format::{Table, keys};
 
 /// Levels of a uniform sheet, and what a look-up costs with its share of the build, ns.
 const UNIFORM_LEVELS: [(&str, f64); 5] = [
@@ -91,30 +91,36 @@ const MOST_NODES: usize = 600_000;
 /// The level where a scene names none, on a sheet that is not too large for it.
 const USUAL_MM: f64 = 5.0;
 
+keys! { KEYS:
+    /// How the sheet splits a current: by distances, by tables of the analytic solution, by the solution itself, or by finite
+    /// differences of a spacing, which alone take a film that is not uniform.
+    RUNG: Option<&'static str> = Rung::choice("rung", || words(true)).usually("bicubic; of a film that is not uniform grid-5-mm");
+}
+
+/// The words of `rung`, for a film that is uniform or not.
+fn words(uniform: bool) -> Vec<&'static str> {
+    let exact = UNIFORM_LEVELS.iter().filter(|_| uniform).map(|level| level.0);
+    exact.chain(GRID_LEVELS.map(|level| level.0)).collect()
+}
+
 pub(super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneError> {
     let Some(table) = root.table("sheet")? else { return Ok(None) };
     let sheet = Sheet::read(table, device)?;
     let uniform = sheet.film.is_uniform();
-    let words: Vec<_> = UNIFORM_LEVELS
-        .iter()
-        .filter(|_| uniform)
-        .map(|level| level.0)
-        .chain(GRID_LEVELS.map(|level| level.0))
-        .collect();
-    let word = table.choice("rung", &words)?;
+    let word = table.choice(RUNG.about.name, &words(uniform))?;
     if !uniform || word.is_some_and(|word| word.starts_with("grid")) {
         let grids = grids(table, &sheet, word)?;
         let usual = grids.iter().rev().find(|(_, mm, _)| *mm >= USUAL_MM).unwrap_or(&grids[0]).0;
         let levels = grids.iter().map(|&(word, mm, cost_ns)| {
             level(&sheet, word, cost_ns, move |sheet| grid(sheet, mm)).slow_to_build()
         });
-        Spec::with_levels("sheet", Some(table), levels.collect(), usual)
+        Spec::with_levels("sheet", Some(table), &RUNG, levels.collect(), usual)
     } else {
         let levels = UNIFORM_LEVELS.map(|(word, cost_ns)| {
             level(&sheet, word, cost_ns, move |sheet| exact_or_table(word, sheet))
                 .against("analytic")
         });
-        Spec::with_levels("sheet", Some(table), levels.into(), "bicubic")
+        Spec::with_levels("sheet", Some(table), &RUNG, levels.into(), "bicubic")
     }
 }
 

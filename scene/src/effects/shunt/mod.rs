@@ -2,11 +2,6 @@
 //! `[shunt]`: the capacitance between the sheet and the panel behind it, which takes a part of the
 //! current and turns the terminals' phases: 9 nF/m² by −12°, 22 nF/m² by −28° (docs/physics.md §1).
 //!
-//! ```toml
-//! [shunt]
-//! nanofarad_per_m2 = 9
-//! ```
-//!
 //! `panel_noise_mv` adds the panel's own voltage: see `panel`.
 //!
 //! | level | what | error | look-up | build |
@@ -17,7 +12,7 @@
 //! The change against the sheet alone is added to what `[sheet]` says, at any of its levels; it is
 //! that of a uniform film, so no other is accepted.
 
-pub(super) mod panel;
+pub(crate) mod panel;
 mod screen;
 #[cfg(test)]
 mod tests;
@@ -33,14 +28,21 @@ use super::sheet::analytic::Analytic;
 use super::sheet::nodes::Values;
 use super::sheet::spline::{AS_IT_IS, Axis, Spline};
 use super::sheet::{Following, OfSheet, Sheet, Solver, Split};
-use super::spec::{Level, Spec};
+use super::spec::{Level, Rung, Spec};
 use crate::device::Device;
 use crate::error::SceneError;
-use crate::format::{Limits, Table};
+use crate::format::{Key, Limits, Table, keys};
 use crate::terminals::PerTerminal;
 
 /// The levels as a scene writes them.
 const WORDS: [&str; 2] = ["table", "series"];
+
+keys! { KEYS:
+    /// How the exact solution is evaluated: by a spline of its series, or by the series.
+    RUNG: Option<&'static str> = Rung::choice("rung", || WORDS.to_vec()).usually("table");
+    /// Capacitance from the sheet to the panel behind it.
+    NANOFARAD_PER_M2: f64 = Key::number("nanofarad_per_m2", Limits::within(0.0, 1e4)).required("a number from 0 to 10000");
+}
 
 /// Columns and rows of the table.
 const NODES: [usize; 2] = [32, 19];
@@ -57,7 +59,7 @@ pub(super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneE
         })
     };
     let levels = vec![level(WORDS[0], 1.0e3, Some(NODES)), level(WORDS[1], 2.8e4, None)];
-    Spec::with_levels("shunt", root.table("shunt")?, levels, "table")
+    Spec::with_levels("shunt", root.table("shunt")?, &RUNG, levels, "table")
 }
 
 /// Below this a capacitance is none, nF/m²: it turns no current by 1e-5°, and its waves would be too long for numbers.
@@ -66,15 +68,13 @@ const LEAST_NANOFARAD: f64 = 1e-6;
 /// The sheet and ωc, S/m², where there is a shunt: a capacitance of zero is none.
 pub(super) fn screened(root: &Table, device: &Device) -> Result<Option<(Sheet, f64)>, SceneError> {
     let Some(table) = root.table("shunt")? else { return Ok(None) };
-    let limits = Limits::within(0.0, 1e4);
-    let nanofarad = table.number("nanofarad_per_m2", limits)?;
-    let nanofarad = table.require("nanofarad_per_m2", &limits.to_string(), nanofarad)?;
+    let nanofarad = table.get(&NANOFARAD_PER_M2)?;
     let Some(sheet) = root.table("sheet")? else {
         return Err(table
             .error("", "expected a [sheet] too, since that is what the capacitance lies across"));
     };
     if nanofarad < LEAST_NANOFARAD {
-        table.choice("rung", &WORDS)?;
+        table.get(&RUNG)?;
         return Ok(None);
     }
     let sheet = Sheet::read(sheet, device)?;

@@ -4,13 +4,6 @@
 //!
 //!   I = G·1·V_p,   G = (R_s·N_c + R_t)⁻¹                (N_c: the Neumann function with the shunt, between terminals)
 //!
-//! ```toml
-//! [shunt]
-//! nanofarad_per_m2 = 9
-//! panel_noise_mv = 10             # rms of V_p near the carrier
-//! panel_noise_khz = 1             # half width of its line there; the default
-//! ```
-//!
 //! A sheet that no terminal holds follows the panel, so that the terminals see V_p through the
 //! sheet. Their currents are of one source and sum to nearly jωcA·V_p, 24 µA of 10 mV through 9
 //! nF/m². A pad's own share is left out: its 318 pF are a twelfth of the shunt's, behind a source
@@ -30,7 +23,7 @@ use crate::effects::sensor::noise::Source;
 use crate::effects::sheet::{Following, OfSheet};
 use crate::effects::spec::{Setting, Spec};
 use crate::error::SceneError;
-use crate::format::{Limits, Table};
+use crate::format::{Key, Limits, Table, keys};
 use crate::random::{Origin, Purpose, Stream, normal};
 use crate::rotor::Rotor;
 use crate::terminals::PerTerminal;
@@ -38,10 +31,17 @@ use crate::terminals::PerTerminal;
 /// The effect's name.
 pub(crate) const PANEL_NOISE: &str = "shunt.panel_noise";
 
+keys! { KEYS:
+    /// Voltage of the panel near the carrier, RMS.
+    PANEL_NOISE_MV: Option<f64> = Key::number("panel_noise_mv", Limits::within(0.0, 1e5));
+    /// Half width of the panel's line near the carrier, at most a tenth of its frequency.
+    PANEL_NOISE_KHZ: Option<f64> = Key::number("panel_noise_khz", Limits::within(1e-6, 1e4)).usually("1");
+}
+
 pub(in super::super) fn read(root: &Table, device: &Device) -> Result<Option<Spec>, SceneError> {
     let Some(table) = root.table("shunt")? else { return Ok(None) };
-    let milli = table.number("panel_noise_mv", Limits::within(0.0, 1e5))?;
-    let half_khz = table.number("panel_noise_khz", Limits::within(1e-6, 1e4))?;
+    let milli = table.get(&PANEL_NOISE_MV)?;
+    let half_khz = table.get(&PANEL_NOISE_KHZ)?;
     let Some(milli) = milli else {
         return match half_khz {
             None => Ok(None),

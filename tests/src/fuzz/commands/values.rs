@@ -87,6 +87,11 @@ impl<'a> Values<'a> {
             ("tradeoff", "scene") => {
                 one(rng, &["minimal-sheet", "minimal-gap", "fig6", "fig9", "wall-2d"])
             }
+            ("reference", "key") => one_of(
+                rng,
+                "wall gap.rung pad.0.load_g force_n columns criteria stimulus [[pad]] pad.position_mm.circle wal .. pad.0.0 x",
+            ),
+            ("new", "file") => one_of(rng, "new.toml nowhere/new.toml folder.toml empty.csv ."),
             (_, "scene") => scene.to_string(),
             (_, "set") => self.setting(rng, scene),
             (_, "case") => self.case(rng, scene),

@@ -33,9 +33,11 @@ fn documents() -> Vec<(String, String)> {
         "synth/README.md",
     ];
     let mut names: Vec<String> = PAGES.map(String::from).to_vec();
-    for entry in fs::read_dir(root().join("docs")).expect("documents").flatten() {
-        let name = entry.file_name().to_string_lossy().into_owned();
-        names.extend(name.ends_with(".md").then(|| format!("docs/{name}")));
+    for folder in ["docs", "docs/guide/reference"] {
+        for entry in fs::read_dir(root().join(folder)).expect("documents").flatten() {
+            let name = entry.file_name().to_string_lossy().into_owned();
+            names.extend(name.ends_with(".md").then(|| format!("{folder}/{name}")));
+        }
     }
     names.sort();
     let read = |name: String| {
