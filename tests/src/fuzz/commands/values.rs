@@ -87,7 +87,7 @@ impl<'a> Values<'a> {
             ("tradeoff", "scene") => {
                 one(rng, &["minimal-sheet", "minimal-gap", "fig6", "fig9", "wall-2d"])
             }
-            (_, "scene") => scene.to_string(),
+            (_, "scene" | "show") => scene.to_string(),
             (_, "set") => self.setting(rng, scene),
             (_, "case") => self.case(rng, scene),
             (_, "profile") => either(rng, &BUNDLED.map(|(name, _)| name), &files.profiles),
