@@ -23,7 +23,10 @@ fn main() -> std::io::Result<()> {
     let rows =
         rows.into_iter().chain([("hockey", hockey()), ("other", hockey()), ("capture", capture())]);
     for (figure, rows) in rows {
-        std::fs::write(dir.join(format!("{figure}.html")), report::html(&record(figure, rows)))?;
+        std::fs::write(
+            dir.join(format!("{figure}.html")),
+            report::html(&record(figure, rows), &[]),
+        )?;
     }
     Ok(())
 }
@@ -78,6 +81,7 @@ fn criteria() -> Vec<Criterion> {
                 limit,
                 pass: measured <= limit,
                 applicable: true,
+                bounds: None,
                 unit: unit.into(),
                 baseline: baseline.map(|(what, value)| (what.into(), value)),
             }

@@ -3,9 +3,11 @@
 
 use std::ops::Range;
 use std::path::PathBuf;
+use std::sync::LazyLock;
 
 use clap::{Parser, Subcommand, ValueEnum};
 use hapticore_run::engine::Fidelity;
+use hapticore_run::provenance;
 
 mod host;
 
@@ -14,12 +16,15 @@ pub use host::HostArgs;
 
 /// Simulate, replay and inspect the hapticore sensing core.
 #[derive(Debug, Parser)]
-#[command(version, after_help = EXIT)]
+#[command(version = VERSION.as_str(), after_help = EXIT)]
 pub struct Args {
     /// What to do.
     #[command(subcommand)]
     pub command: Command,
 }
+
+/// Version and commit.
+static VERSION: LazyLock<String> = LazyLock::new(provenance::version);
 
 const EXIT: &str = "Exit status: 0 all criteria pass, 1 one fails, 2 bad input.";
 
@@ -402,6 +407,9 @@ pub struct HdlArgs {
 /// Arguments of `scenes`.
 #[derive(Debug, clap::Args)]
 pub struct ScenesArgs {
+    /// Tell all of one scene: what it is about, its cases, pads, effects and criteria
+    #[arg(long, value_name = "NAME")]
+    pub show: Option<String>,
     /// Print results as JSON
     #[arg(long)]
     pub json: bool,
@@ -481,6 +489,12 @@ pub struct CoreArgs {
     /// Print results as JSON
     #[arg(long)]
     pub json: bool,
+    /// Print warnings and errors alone; the exit status tells the rest
+    #[arg(short, long)]
+    pub quiet: bool,
+    /// Also print what effects cost, the seed, version and commit
+    #[arg(short, long, conflicts_with = "quiet")]
+    pub verbose: bool,
 }
 
 /// Arguments of `simulate`.
@@ -581,6 +595,11 @@ impl CoreArgs {
     /// How exactly the core is run.
     pub fn fidelity(&self) -> Fidelity {
         self.core.into()
+    }
+
+    /// Whether neither progress nor words for people are printed.
+    pub fn is_silent(&self) -> bool {
+        self.json || self.quiet
     }
 }
 

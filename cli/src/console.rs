@@ -6,10 +6,44 @@
 //! done.
 
 use std::fmt::Arguments;
-use std::io::{self, ErrorKind, Write};
+use std::io::{self, ErrorKind, IsTerminal, Write};
 use std::sync::Mutex;
 
 use anyhow::{Context, Result};
+
+/// A colour of terminals.
+#[derive(Clone, Copy)]
+pub enum Colour {
+    /// What fails.
+    Red,
+    /// What passes.
+    Green,
+}
+
+/// Text on standard output, in a colour where that is a terminal and `NO_COLOR` is not set.
+pub fn coloured(text: &str, colour: Colour) -> String {
+    in_colour(text, colour, io::stdout().is_terminal())
+}
+
+/// The same in red on standard error.
+pub fn red_of_stderr(text: &str) -> String {
+    in_colour(text, Colour::Red, io::stderr().is_terminal())
+}
+
+/// The variable that keeps colours off: <https://no-color.org>.
+const NO_COLOUR: &str = "NO_COLOR";
+
+fn in_colour(text: &str, colour: Colour, terminal: bool) -> String {
+    let no_colour = std::env::var_os(NO_COLOUR).is_some_and(|value| !value.is_empty());
+    if !terminal || no_colour {
+        return text.into();
+    }
+    let code = match colour {
+        Colour::Red => 31,
+        Colour::Green => 32,
+    };
+    format!("\x1b[{code}m{text}\x1b[0m")
+}
 
 /// Why standard output takes no more.
 static FAILED: Mutex<Option<io::Error>> = Mutex::new(None);
@@ -36,7 +70,7 @@ pub fn complain(text: Arguments) {
 
 /// Prints a warning to standard error.
 pub fn warn(text: &str) {
-    complain(format_args!("warning: {text}"));
+    complain(format_args!("{} {text}", red_of_stderr("warning:")));
 }
 
 /// Sends on what has been printed: a program that waits for it may be reading.

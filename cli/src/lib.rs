@@ -72,7 +72,8 @@ pub fn main() -> ExitCode {
             ExitCode::from(interrupt::STATUS)
         }
         Err(error) => {
-            console::complain(format_args!("error: {}", one_line(&error)));
+            let error = one_line(&error);
+            console::complain(format_args!("{} {error}", console::red_of_stderr("error:")));
             ExitCode::from(2)
         }
     }

@@ -63,6 +63,21 @@ impl Output {
         Ok(())
     }
 
+    /// Names of the files that are written, with those that every run writes.
+    ///
+    /// # Errors
+    /// The folder cannot be read.
+    pub fn names(&self) -> Result<Vec<String>> {
+        let mut names = vec!["frames.csv".to_string(), SUMMARY.into()];
+        for entry in fs::read_dir(self.partial_path())? {
+            names.push(entry?.file_name().to_string_lossy().into_owned());
+        }
+        names.retain(|name| !name.starts_with('.'));
+        names.sort();
+        names.dedup();
+        Ok(names)
+    }
+
     /// Gives all files their names, in place of older ones; their paths. Waveforms, profiles and tunings of an earlier run in
     /// the folder go: they are not of the run that is kept.
     ///

@@ -3,14 +3,15 @@
 
 use std::path::PathBuf;
 
-use hapticore_report::words::{off, stability};
+use hapticore_report::words::{off, speed, stability};
 use hapticore_run::findings;
 use hapticore_run::lab::Outcome;
 use hapticore_run::lab::least_squares::Estimate;
 pub use hapticore_run::number::number;
+use hapticore_run::provenance::version;
 use hapticore_run::record::{Criterion, Effect, Record, SignalError};
 
-use crate::console;
+use crate::console::{self, Colour};
 use crate::say;
 
 /// A table as text: columns as wide as their widest cell, numbers to the right.
@@ -57,51 +58,65 @@ pub fn warnings(record: &Record) {
 }
 
 /// The tables at the end of a run.
-pub fn finish(record: &Record, files: &[PathBuf]) {
-    if !record.effects.is_empty() {
-        console::print(format_args!("\n{}", effects(&record.effects, record.wall_seconds)));
+pub fn finish(record: &Record, files: &[PathBuf], verbose: bool) {
+    if verbose {
+        let of = &record.provenance;
+        let seed = of.seed.map_or(String::new(), |seed| format!(" · seed {seed}"));
+        say!("hapticore {}{seed} · {}", version(), record.date);
+        if !record.effects.is_empty() {
+            console::print(format_args!("\n{}", effects(&record.effects)));
+        }
     }
     if !record.criteria.is_empty() {
         console::print(format_args!("\n{}", criteria(&record.criteria)));
+        say!("{}", verdict(&record.criteria));
     }
     let findings = findings::lines(&record.findings).into_iter().chain(stability(record));
-    let findings: Vec<_> = findings.map(|line| line + "\n").collect();
-    if !findings.is_empty() {
-        console::print(format_args!("\n{}", findings.concat()));
-    }
+    let flags = record.findings.flagged.is_empty().then(|| "flags: no frame carries one".into());
+    let findings: Vec<_> =
+        flags.into_iter().chain(findings).map(|line: String| line + "\n").collect();
+    console::print(format_args!("\n{}", findings.concat()));
     if !record.errors.is_empty() {
         console::print(format_args!("\n{}", errors(&record.errors)));
     }
     if let Some(residual) = &record.position_table {
         say!("\nposition table: {}", residual.text());
     }
-    let speed = record.wall_seconds / record.simulated_seconds;
     say!(
-        "\n{} s simulated in {} s ({} s per simulated second)",
+        "\n{} s of device time in {} s: {}",
         number(record.simulated_seconds),
         number(record.wall_seconds),
-        number(speed)
+        speed(record)
     );
     files.iter().for_each(|file| say!("  {}", file.display()));
 }
 
-fn effects(effects: &[Effect], wall_seconds: f64) -> String {
+/// The effects with what each cost; their times are summed over all threads.
+fn effects(effects: &[Effect]) -> String {
+    let all: f64 = effects.iter().map(|effect| effect.seconds).sum();
     let row = |effect: &Effect| {
         let error =
             effect.finer.as_ref().map_or(String::new(), |(finer, percent)| off(*percent, finer));
-        let share = format!("{} %", number(100.0 * effect.seconds / wall_seconds));
+        let share = format!("{} %", number(100.0 * effect.seconds / all));
         vec![effect.name.clone(), effect.level.clone(), error, number(effect.seconds), share]
     };
-    table(
-        &[
-            "effect",
-            "fidelity level",
-            "difference from a finer level",
-            "wall seconds",
-            "share of run",
-        ],
-        &effects.iter().map(row).collect::<Vec<_>>(),
-    )
+    let head = [
+        "effect",
+        "fidelity level",
+        "difference from a finer level",
+        "seconds, all threads",
+        "share of all effects",
+    ];
+    table(&head, &effects.iter().map(row).collect::<Vec<_>>())
+}
+
+/// How many criteria hold.
+fn verdict(criteria: &[Criterion]) -> String {
+    let applicable = criteria.iter().filter(|criterion| criterion.applicable).count();
+    let holding =
+        criteria.iter().filter(|criterion| criterion.applicable && criterion.pass).count();
+    let colour = if holding == applicable { Colour::Green } else { Colour::Red };
+    console::coloured(&format!("{holding} of {applicable} criteria passed"), colour)
 }
 
 fn criteria(criteria: &[Criterion]) -> String {
@@ -120,10 +135,9 @@ fn criteria(criteria: &[Criterion]) -> String {
             (true, false) => vec![criterion.name.clone(), measured, limit, "FAIL".into(), baseline],
         }
     };
-    table(
-        &["criterion", "measured", "limit", "", "for comparison"],
-        &criteria.iter().map(row).collect::<Vec<_>>(),
-    )
+    let rows: Vec<_> = criteria.iter().map(row).collect();
+    let text = table(&["criterion", "measured", "limit", "", "for comparison"], &rows);
+    text.replace("  FAIL", &("  ".to_string() + &console::coloured("FAIL", Colour::Red)))
 }
 
 fn errors(errors: &[SignalError]) -> String {

@@ -62,10 +62,19 @@ fn print_lines(bar: &ProgressBar) {
 fn line(bar: &ProgressBar) -> String {
     let (at, message, after) = (bar.position(), bar.message(), bar.elapsed().as_secs());
     match bar.length() {
-        Some(count) => format!("{at} of {count} {message} after {after} s"),
+        Some(count) => {
+            format!("{at} of {count} {message} after {after} s{}", left(at, count, bar.elapsed()))
+        }
         None if at > 0 => format!("{at} {message} after {after} s"),
         None => format!("{message}: {after} s"),
     }
+}
+
+/// How long the rest takes, at the speed so far.
+fn left(at: u64, count: u64, elapsed: Duration) -> String {
+    let rest = count.saturating_sub(at) as f64 / at as f64;
+    let seconds = rest * elapsed.as_secs_f64();
+    if seconds.is_finite() { format!(", about {seconds:.0} s left") } else { String::new() }
 }
 
 #[cfg(test)]
@@ -76,7 +85,9 @@ mod tests {
     fn a_line_names_what_is_done_of_what() {
         let bar = bar(Some(7), "points", true);
         bar.inc(3);
-        assert_eq!(line(&bar), "3 of 7 points after 0 s");
+        assert_eq!(line(&bar), "3 of 7 points after 0 s, about 0 s left");
+        assert_eq!(left(3, 7, Duration::from_secs(30)), ", about 40 s left");
+        assert_eq!(left(0, 7, Duration::from_secs(30)), "");
         let work = work("calibrating", true);
         assert_eq!(line(&work), "calibrating: 0 s");
     }

@@ -28,14 +28,20 @@ pub fn run(args: &ReplayArgs) -> Result<bool> {
         rows.push(row);
         Ok(())
     };
-    let bar = progress::bar(None, "slots", args.core.json);
+    let bar = progress::bar(None, "slots", args.core.is_silent());
     let Replayed { mut record, left, silent } =
         replay::run(&plan(args), &mut sink, &|| bar.inc(1))?;
     bar.finish_and_clear();
     frames.finish()?;
+    if rows.every > 1 {
+        let Thinned { every, seen, .. } = rows;
+        record
+            .warnings
+            .push(format!("report: drawn of every {every}th of {seen} slots; frames.csv has all"));
+    }
     record.rows = Rows::of_cases([rows.kept]);
     output.write("summary.json", summary(&record))?;
-    output.write("report.html", report::html(&record))?;
+    output.write("report.html", report::html(&record, &output.names()?))?;
     let files = output.keep()?;
     print_result(args, &record, (left, &silent), &files);
     Ok(true)
@@ -69,13 +75,16 @@ fn print_result(
         console::print(format_args!("{}", summary(record)));
         return;
     }
+    if args.core.quiet {
+        return;
+    }
     let core = args.core.fidelity();
     say!("{} · core {} · profile {}", record.title, core.name(), record.profile);
     if left > 0 {
         say!("{left} samples at the end are no whole slot and were left out");
     }
     say!("{silent}");
-    print::finish(record, files);
+    print::finish(record, files, args.core.verbose);
 }
 
 /// Rows evenly thinned, so that they stay few.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `hapticore scenes`: the bundled scenes.
 
-use anyhow::Result;
+use anyhow::{Result, bail};
 use hapticore_scene::{Scene, gallery};
 use serde::Serialize;
 
@@ -23,28 +23,56 @@ struct Listed {
 /// Lists the bundled scenes.
 ///
 /// # Errors
-/// None, but for a scene that is broken.
+/// No such scene.
 pub fn run(args: &ScenesArgs) -> Result<bool> {
-    let listed = gallery::all()
+    let named = |name: &&str| args.show.as_deref().is_none_or(|show| show == *name);
+    let names: Vec<_> = gallery::all().iter().map(|(name, _)| *name).filter(named).collect();
+    let listed = names
         .iter()
-        .map(|(name, _)| Ok(list(&inputs::scene(name, &[])?)))
+        .map(|name| Ok(list(&inputs::scene(name, &[])?)))
         .collect::<Result<Vec<_>>>()?;
-    if args.json {
-        say!("{}", serde_json::to_string_pretty(&listed)?);
-    } else {
-        let row = |scene: &Listed| {
-            let cases = if scene.cases.len() > 1 { scene.cases.join(", ") } else { String::new() };
-            vec![scene.name.clone(), scene.title.clone(), cases, scene.effects.join(" · ")]
-        };
-        console::print(format_args!(
-            "{}",
-            print::table(
-                &["scene", "title", "cases", "effects"],
-                &listed.iter().map(row).collect::<Vec<_>>()
-            )
-        ));
+    if let (Some(show), true) = (&args.show, listed.is_empty()) {
+        let names: Vec<_> = gallery::all().iter().map(|(name, _)| *name).collect();
+        bail!("--show: expected a bundled scene, one of {}, got {show:?}", names.join(", "));
+    }
+    match &args.show {
+        _ if args.json => say!("{}", serde_json::to_string_pretty(&listed)?),
+        Some(_) => listed.iter().for_each(show),
+        None => console::print(format_args!("{}\n{MORE}\n", overview(&listed))),
     }
     Ok(true)
+}
+
+const MORE: &str =
+    "hapticore scenes --show NAME tells what a scene is about, its cases, effects and criteria.";
+
+/// A line for each scene, at most 100 columns.
+fn overview(listed: &[Listed]) -> String {
+    let row = |scene: &Listed| {
+        let counts = [scene.cases.len(), scene.pads.len(), scene.criteria.len()];
+        let counts = counts.map(|count| count.to_string());
+        [vec![scene.name.clone(), scene.title.clone()], counts.to_vec()].concat()
+    };
+    let rows: Vec<_> = listed.iter().map(row).collect();
+    print::table(&["scene", "title", "cases", "pads", "criteria"], &rows)
+}
+
+/// All of a scene.
+fn show(scene: &Listed) {
+    say!("{}: {}", scene.name, scene.title);
+    if !scene.summary.is_empty() {
+        say!("\n{}", scene.summary.trim());
+    }
+    let lists = [
+        ("cases", &scene.cases),
+        ("pads", &scene.pads),
+        ("effects", &scene.effects),
+        ("criteria", &scene.criteria),
+    ];
+    for (name, list) in lists {
+        say!("\n{name}:");
+        list.iter().for_each(|item| say!("  {item}"));
+    }
 }
 
 fn list(scene: &Scene) -> Listed {

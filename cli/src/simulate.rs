@@ -31,8 +31,8 @@ pub fn run(args: &SimulateArgs) -> Result<bool> {
     print::warnings(&record);
     if args.core.json {
         console::print(format_args!("{}", summary(&record)));
-    } else {
-        print::finish(&record, &files);
+    } else if !args.core.quiet {
+        print::finish(&record, &files, args.core.verbose);
     }
     Ok(record.criteria.iter().all(|criterion| criterion.pass))
 }
@@ -53,7 +53,7 @@ fn write(
     let recorder = capture.as_deref().map(|path| recorder(path, args, &cases)).transpose()?;
     announce(args, scene, &cases)?;
     let slots = cases.iter().map(|case| case.slots as u64).sum();
-    let bar = progress::bar(Some(slots), "slots", args.core.json);
+    let bar = progress::bar(Some(slots), "slots", args.core.is_silent());
     let (mut record, recorder) = simulation::run(
         (scene, &args.set),
         (&cases, stability),
@@ -72,16 +72,16 @@ fn write(
             kind,
             args.waves_window.as_ref(),
             output.partial_path(),
-            args.core.json,
+            args.core.is_silent(),
         )?;
     }
-    let report = || output.write("report.html", report::html(&record));
-    let (frames, report) = rayon::join(|| write_frames(&output, &record), report);
-    frames.and(report)?;
-    output.write("summary.json", summary(&record))?;
     for (name, text) in words::of_cases(&cases)? {
         output.write(&name, text)?;
     }
+    let report = || output.write("report.html", report::html(&record, &output.names()?));
+    let (frames, report) = rayon::join(|| write_frames(&output, &record), report);
+    frames.and(report)?;
+    output.write("summary.json", summary(&record))?;
     let mut files = Vec::new();
     if let (Some(path), Some(recorder)) = (capture, recorder) {
         let calibration = capture::calibration_path(&path);
@@ -160,14 +160,14 @@ fn announce(args: &SimulateArgs, scene: &Scene, cases: &[Case]) -> Result<()> {
         .iter()
         .filter(|waves| waves.is_large())
         .for_each(|waves| console::warn(&waves.to_string()));
-    if args.core.json {
+    if args.core.is_silent() {
         return Ok(());
     }
     let (slots, seconds) =
         (cases.iter().map(|case| case.slots).sum::<usize>(), cases.iter().map(Case::seconds).sum());
     say!("{}", scene.title);
     say!(
-        "core {} · profile {} · {} cases · {slots} slots · {} s",
+        "core {} · profile {} · {} cases · {slots} slots · {} s of device time",
         args.core.fidelity().name(),
         cases[0].profile.name,
         cases.len(),

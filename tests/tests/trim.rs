@@ -200,7 +200,10 @@ fn the_trim_makes_the_read_force_the_target_wherever_the_rail_gives_it() {
         let read_n = mean(&|row| row.measured.force_n);
         assert!((read_n - target_n).abs() <= OFF_N, "{name}: reads {read_n} N");
         let waited_s = off_s - pulled_s.max(STEP_S);
-        assert!(waited_s <= SETTLED_S + 1e-9, "{name}: off until {off_s} s, a spot at {pulled_s} s");
+        assert!(
+            waited_s <= SETTLED_S + 1e-9,
+            "{name}: off until {off_s} s, a spot at {pulled_s} s"
+        );
         late += usize::from(off_s - STEP_S > SETTLED_S);
         reached.push(off_s - STEP_S);
     }

@@ -17,6 +17,8 @@ pub struct Axis {
     low: f64,
     high: f64,
     log: bool,
+    /// Zeros have a place at the low end of a logarithmic axis.
+    zeros: bool,
     pad: bool,
     categories: Vec<String>,
 }
@@ -25,7 +27,15 @@ impl Axis {
     /// From the least to the largest finite value.
     pub fn linear(title: &str, values: impl IntoIterator<Item = f64>) -> Axis {
         let (low, high) = bounds(values);
-        Axis { title: title.into(), low, high, log: false, pad: true, categories: Vec::new() }
+        let categories = Vec::new();
+        Axis { title: title.into(), low, high, log: false, zeros: false, pad: true, categories }
+    }
+
+    /// With a range of at least this part of its values: no noise of the last digits fills the plot.
+    pub fn at_least(self, part: f64) -> Axis {
+        let least = part * self.low.abs().max(self.high.abs());
+        let more = (0.5 * (least - (self.high - self.low))).max(0.0);
+        Axis { low: self.low - more, high: self.high + more, ..self }
     }
 
     /// The same, starting or ending at zero where zero lies outside.
@@ -38,11 +48,20 @@ impl Axis {
         Axis { pad: false, ..Axis::linear(title, [low, high]) }
     }
 
-    /// Logarithmic over the positive values, at least a decade.
+    /// Logarithmic over the positive values, at least a decade. Where there are zeros, they stand at its low end, below a tick
+    /// that says so.
     pub fn log(title: &str, values: impl IntoIterator<Item = f64>) -> Axis {
-        let (low, high) = bounds(values.into_iter().filter(|v| *v > 0.0).map(f64::log10));
+        let (zero, other): (Vec<f64>, Vec<f64>) = values.into_iter().partition(|v| *v == 0.0);
+        let zeros = !zero.is_empty();
+        let (low, high) = bounds(other.into_iter().filter(|v| *v > 0.0).map(f64::log10));
         let short = (1.0 - (high - low)).max(0.0) / 2.0;
-        Axis { log: true, ..Axis::linear(title, [low - short, high + short]) }
+        let below = if zeros { 0.15 * (high - low + 2.0 * short) } else { 0.0 };
+        Axis { log: true, zeros, ..Axis::linear(title, [low - short - below, high + short]) }
+    }
+
+    /// Whether it is logarithmic.
+    pub fn is_log(&self) -> bool {
+        self.log
     }
 
     /// Names from top to bottom; the n-th lies at −n.
@@ -57,6 +76,8 @@ impl Axis {
             value
         } else if value > 0.0 {
             value.log10()
+        } else if value == 0.0 && self.zeros {
+            self.low
         } else {
             f64::NAN
         }
@@ -108,10 +129,11 @@ impl Axis {
         let mantissas: &[f64] = if high - low > 2.5 { &[1.0] } else { &[1.0, 2.0, 5.0] };
         let decades = low.floor() as i32..=high.ceil() as i32;
         let all = decades.flat_map(|d| mantissas.iter().map(move |m| (d, m * 10f64.powi(d))));
-        let inside = all.filter(|(_, v)| (low..=high).contains(&v.log10()));
-        inside
-            .map(|(d, v)| (v.log10(), number::fixed(v, usize::try_from(-d).unwrap_or(0))))
-            .collect()
+        let first = if self.zeros { low + 0.14 * (high - low) } else { low };
+        let inside = all.filter(|(_, v)| (first..=high).contains(&v.log10()));
+        let tick =
+            |(d, v): (i32, f64)| (v.log10(), number::fixed(v, usize::try_from(-d).unwrap_or(0)));
+        self.zeros.then(|| (self.low, "0".into())).into_iter().chain(inside.map(tick)).collect()
     }
 }
 
@@ -150,6 +172,24 @@ mod tests {
             ["−0.10", "−0.05", "0.00", "0.05", "0.10"]
         );
         assert_eq!(labels(&Axis::log("", [0.03, 2.0])), ["0.05", "0.1", "0.2", "0.5", "1", "2"]);
+    }
+
+    #[test]
+    fn zeros_have_a_place_on_a_logarithmic_axis() {
+        let axis = Axis::log("", [0.0, 0.03, 2.0]);
+        assert_eq!(labels(&axis), ["0", "0.05", "0.1", "0.2", "0.5", "1", "2"]);
+        assert!(axis.shows(axis.place(0.0)) && axis.place(0.0) < axis.place(0.03));
+        assert!(Axis::log("", [0.03, 2.0]).place(0.0).is_nan());
+    }
+
+    #[test]
+    fn noise_of_the_last_digits_fills_no_axis() {
+        let (low, high) = Axis::linear("", [149.9985, 150.0015]).at_least(2e-3).range();
+        assert!(high - low > 0.3 && low < 149.9 && high > 150.1, "{low} to {high}");
+        assert_eq!(
+            Axis::linear("", [1.0, 2.0]).at_least(2e-3).range(),
+            Axis::linear("", [1.0, 2.0]).range()
+        );
     }
 
     #[test]

@@ -7,11 +7,10 @@ use hapticore_run::record::{Record, Row};
 
 use super::axis::Axis;
 use super::figure::Figure;
-use super::general::{self, band_note, breaks, noisy, points, time_axis};
+use super::general::{self, noisy, points, time_axis};
 use super::paint::Paint;
 use super::plot::Plot;
 use super::select;
-use super::series::Mark;
 
 /// A column over time, a colour per pad. A quantity is drawn as in a report: what is measured, with truth and reference
 /// where they are known. None of a column of names.
@@ -28,15 +27,15 @@ pub fn over_time(record: &Record, columns: &Columns, column: &Column) -> Option<
         Value::Flag(is) => f64::from(u8::from(is)),
         Value::Text(_) => f64::NAN,
     };
-    let of_pad = |pad: usize| {
-        let points = points(record, pad, value);
-        noisy(&select::pad_name(record, pad), Paint::series(pad), points)
+    let plot = |record: &Record| {
+        let of_pad = |pad: usize| {
+            let points = points(record, pad, value);
+            noisy(&select::pad_name(record, pad), Paint::series(pad), points)
+        };
+        let series: Vec<_> = select::pads(record).into_iter().flat_map(of_pad).collect();
+        let values = series.iter().flat_map(|s| s.points.iter().map(|p| p.1));
+        let y = Axis::linear(&column.name, values);
+        Plot::new(&format!("{} over time", column.name), time_axis(record), y, series)
     };
-    let series: Vec<_> = select::pads(record).into_iter().flat_map(of_pad).collect();
-    let y = Axis::linear(&column.name, series.iter().flat_map(|s| s.points.iter().map(|p| p.1)));
-    let has_bands = series.iter().any(|s| s.mark == Mark::Band);
-    let about = format!("{} over time", column.name);
-    let mut plot = Plot::new(&about, time_axis(record), y, series);
-    plot.breaks = breaks(record);
-    Some(Figure::plot(&column.name, &band_note(has_bands), &plot))
+    Some(general::of_cases(record, &column.name, "", plot))
 }

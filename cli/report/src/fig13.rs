@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The paper's Fig. 13: the direction of the push that is read over the push's eccentricity, a line
-//! for each case and haptic voltage. Below it, the straight line that fits each best.
+//! The paper's Fig. 13: the direction of the push that is read over the push's eccentricity, a panel for each case and a line
+//! for each haptic voltage. Below it, the straight line that fits each best.
 
 use std::collections::BTreeMap;
 
@@ -10,22 +10,23 @@ use super::general;
 use super::map::half_sheet_mm;
 use super::number;
 use super::page::escape;
-use super::paint::Paint;
+use super::paint::{Paint, SERIES};
 use super::plot::Plot;
 use super::select;
 use super::series::{Mark, Point, Series};
 use super::tables;
 use hapticore_run::record::{Record, Row, Truth};
 
-/// Lines of the plot; more would not be told apart.
-const LINES: usize = 12;
+/// Cases that are drawn, and lines of each: the colours that there are. All are in the table.
+const PANELS: usize = 8;
 
 /// The part whose slot completes a direction: the right one.
 const COMPLETE: usize = 1;
 
-/// A case at a haptic voltage: name, what was read, what is true, mm over mm.
+/// A case at a haptic voltage: what was read, what is true, mm over mm.
 struct Line {
-    name: String,
+    case: String,
+    volt: String,
     read: Vec<Point>,
     truth: Vec<Point>,
 }
@@ -50,8 +51,7 @@ fn lines(record: &Record) -> Vec<Line> {
     }
     let line = |((case, volt), rows): ((usize, i64), Vec<(&Row, Truth)>)| {
         let volt = format!("{} V", number::short(1e-3 * volt as f64));
-        let case = (record.cases.len() > 1).then(|| select::case_name(record, case));
-        let name = case.map_or(volt.clone(), |case| format!("{case}, {volt}"));
+        let case = select::case_name(record, case);
         let of = |direction: &dyn Fn(&Row, &Truth) -> f64| {
             let point = |(row, truth): &(&Row, Truth)| {
                 (truth.set.eccentricity_mm, half_width_mm * direction(row, truth))
@@ -59,7 +59,8 @@ fn lines(record: &Record) -> Vec<Line> {
             rows.iter().map(point).collect()
         };
         Line {
-            name,
+            case,
+            volt,
             read: of(&|row, _| row.measured.direction),
             truth: of(&|_, truth| truth.quantities.direction),
         }
@@ -68,30 +69,43 @@ fn lines(record: &Record) -> Vec<Line> {
 }
 
 fn readings(lines: &[Line]) -> Figure {
-    let (mut series, mut truths) = (Vec::new(), Vec::new());
-    for (n, line) in lines.iter().take(LINES).enumerate() {
-        let paint = Paint::series(n);
-        series.push(Series::dots(&line.name, paint, line.read.clone()).mark(Mark::Dots(6)));
-        truths.push(Series::line("", paint, line.truth.clone()).mark(Mark::Line(3)));
-    }
-    series.extend(truths);
-    let points = || series.iter().flat_map(|it| it.points.iter());
+    let cases: Vec<_> = lines.chunk_by(|a, b| a.case == b.case).collect();
+    let points = || lines.iter().flat_map(|line| line.read.iter().chain(&line.truth));
     let x = Axis::linear("eccentricity of the push (mm)", points().map(|it| it.0));
     let y = Axis::linear("direction of the push, eq. 10 (mm)", points().map(|it| it.1));
-    series.push(Series::line("true value", Paint::INK, Vec::new()));
-    let plot = Plot::new("Direction of the push over its eccentricity", x, y, series);
+    let panel = |lines: &&[Line]| {
+        let drawn = || lines.iter().take(SERIES).enumerate();
+        let truth = |(n, line): (usize, &Line)| {
+            Series::line("", Paint::series(n), line.truth.clone()).mark(Mark::Line(3))
+        };
+        let read = |(n, line): (usize, &Line)| {
+            Series::dots(&line.volt, Paint::series(n), line.read.clone()).mark(Mark::Dots(6))
+        };
+        let key = Series::line("true value", Paint::INK, Vec::new());
+        let series = drawn().map(truth).chain(drawn().map(read)).chain([key]).collect();
+        let about = "Direction of the push over its eccentricity";
+        (lines[0].case.clone(), Plot::new(about, x.clone(), y.clone(), series))
+    };
+    let plots: Vec<_> = cases.iter().take(PANELS).map(panel).collect();
+    let drawn: usize = cases.iter().take(PANELS).map(|lines| lines.len().min(SERIES)).sum();
+    let left_out = match lines.len() - drawn {
+        0 => String::new(),
+        others => format!(" {others} further lines are in the table alone."),
+    };
     let note = "Dots: the core's readings. Lines: what the parts' true capacitances give. The offset \
                 at 0 mm is that of electrodes of unequal size.";
-    Figure::plot("Direction of the push", note, &plot)
+    Figure::plots("Direction of the push", &(note.to_string() + &left_out), &plots)
 }
 
 /// Slope, offset and departure of each line.
 fn fits(lines: &[Line]) -> Figure {
-    let heads = ["haptic voltage", "#slope", "#offset", "#largest departure from the line"];
+    let heads =
+        ["case", "#haptic voltage", "#slope", "#offset", "#largest departure from the line"];
     let row = |line: &Line| {
         let [slope, offset_mm, off] = fit(&line.read);
         tables::row(&[
-            ("", &escape(&line.name)),
+            ("", &escape(&line.case)),
+            ("number", &line.volt),
             ("number", &number::short(slope)),
             ("number", &number::with_unit(&number::short(1e3 * offset_mm), "µm")),
             ("number", &number::with_unit(&number::short(off), "%")),

@@ -14,7 +14,7 @@ use super::plot::Plot;
 use super::select;
 use super::series::{Mark, Point, Series};
 use super::tables;
-use hapticore_run::record::{Record, Row, Truth};
+use hapticore_run::record::{Record, Row, Truth, WallPlace};
 
 /// A force of the hand below which it neither pushes nor pulls, N.
 const LEAST_N: f64 = 0.01;
@@ -25,10 +25,14 @@ const PANELS: usize = 8;
 /// Lines of a panel.
 type Lines = fn(&Panel) -> Vec<Series>;
 
-/// A pad's frame: the slot of its last part, and where the pad then is.
+/// A pad's frame: the slot of its last part, and where pad and wall then are.
 struct Frame<'a> {
     time_s: f64,
     x_mm: f64,
+    surface_mm: f64,
+    depth_mm: f64,
+    /// The wall's inside is right of its surface.
+    right: bool,
     row: &'a Row,
     truth: Truth,
 }
@@ -57,6 +61,7 @@ pub fn figures(record: &Record) -> Vec<Figure> {
 fn frames(rows: &[Row]) -> Vec<Frame<'_>> {
     let parts = rows.iter().filter_map(|row| row.truth).map(|truth| truth.part + 1).max();
     let mut outer_mm = [f64::NAN; 2];
+    let mut part_off_mm = None;
     let mut frames = Vec::new();
     for (row, truth) in rows.iter().filter_map(|row| Some((row, row.truth?))) {
         if row.pad != truth.part {
@@ -66,9 +71,17 @@ fn frames(rows: &[Row]) -> Vec<Frame<'_>> {
             *x_mm = truth.quantities.x_mm;
         }
         let is_last = Some(truth.part + 1) == parts;
-        if is_last && row.driven.is_some_and(|driven| driven.free.is_some()) {
+        if let Some(WallPlace { surface_mm, depth_mm }) =
+            row.driven.and_then(|driven| driven.wall).filter(|_| is_last)
+        {
             let x_mm = 0.5 * (outer_mm[0] + outer_mm[1]);
-            frames.push(Frame { time_s: row.time_s - rows[0].time_s, x_mm, row, truth });
+            let off_surface_mm = truth.quantities.x_mm - surface_mm;
+            // Of the part's place, whose distance from the pad's is that at the beginning: its slots come later.
+            let off_mm = *part_off_mm.get_or_insert(truth.quantities.x_mm - x_mm);
+            let surface_mm = surface_mm - off_mm;
+            let right = (off_surface_mm > 0.0) == (depth_mm > 0.0);
+            let time_s = row.time_s - rows[0].time_s;
+            frames.push(Frame { time_s, x_mm, surface_mm, depth_mm, right, row, truth });
         }
     }
     frames
@@ -82,7 +95,8 @@ impl Panel<'_> {
     fn places(&self) -> Vec<Series> {
         let released = |frame: &Frame| if frame.released() { frame.x_mm } else { f64::NAN };
         vec![
-            Series::line("wall's surface", Paint::LIMIT, self.line(|_| 0.0)).mark(Mark::Line(2)),
+            Series::line("wall's surface", Paint::LIMIT, self.line(|frame| frame.surface_mm))
+                .mark(Mark::Line(2)),
             Series::line("released", Paint::series(3), self.line(released)).mark(Mark::Line(10)),
             Series::line("pad", Paint::INK, self.line(|frame| frame.x_mm)).mark(Mark::Line(3)),
         ]
@@ -98,8 +112,8 @@ impl Panel<'_> {
                 self.line(|it| it.truth.quantities.force_n),
             )
             .mark(Mark::Line(4)),
-            Series::line("hand, outwards", Paint::INK, self.line(|it| it.truth.hand_x_n))
-                .mark(Mark::Line(2)),
+            Series::line("hand, outwards", Paint::series(4), self.line(|frame| frame.pull_n()))
+                .mark(Mark::Line(3)),
         ]
     }
 
@@ -107,10 +121,10 @@ impl Panel<'_> {
         vec![
             Series::line(
                 "true direction",
-                Paint::series(1),
+                Paint::series(5),
                 self.line(|it| 1e3 * it.truth.quantities.direction),
             )
-            .mark(Mark::Line(6)),
+            .mark(Mark::Line(8)),
             Series::line(
                 "direction read",
                 Paint::series(2),
@@ -120,9 +134,10 @@ impl Panel<'_> {
         ]
     }
 
-    /// Mean and largest part of the friction that the wall makes while the hand pulls outwards.
+    /// Mean and largest part of the friction that the wall makes while the hand pulls outwards: the mean is that of the run's
+    /// findings.
     fn sticking_n(&self) -> [f64; 2] {
-        let pulls = |frame: &&Frame| frame.x_mm < 0.0 && frame.truth.hand_x_n > LEAST_N;
+        let pulls = |frame: &&Frame| frame.depth_mm > 0.0 && frame.pull_n() > LEAST_N;
         let felt: Vec<f64> =
             self.frames.iter().filter(pulls).map(|frame| frame.truth.haptic_friction_n).collect();
         let most = felt.iter().copied().fold(0.0, f64::max);
@@ -135,13 +150,18 @@ impl Panel<'_> {
 
     /// Changes between push and release within the wall.
     fn flips(&self) -> usize {
-        let within = |pair: &&[Frame]| pair.iter().all(|frame| frame.x_mm < 0.0);
+        let within = |pair: &&[Frame]| pair.iter().all(|frame| frame.depth_mm > 0.0);
         let changes = |pair: &&[Frame]| pair[0].released() != pair[1].released();
         self.frames.windows(2).filter(within).filter(changes).count()
     }
 }
 
 impl Frame<'_> {
+    /// The hand's force out of the wall.
+    fn pull_n(&self) -> f64 {
+        if self.right { -self.truth.hand_x_n } else { self.truth.hand_x_n }
+    }
+
     fn released(&self) -> bool {
         self.row.driven.and_then(|driven| driven.free) == Some(true)
     }
@@ -192,8 +212,8 @@ fn felt(panels: &[Panel]) -> Figure {
     let heads = [
         "case",
         "#largest haptic force",
-        "#sticking force, mean",
-        "#sticking force, most",
+        "#mean sticking force",
+        "#largest sticking force",
         "#changes between push and release",
     ];
     let newtons = |value: f64| number::with_unit(&number::short(value), "N");
@@ -208,8 +228,8 @@ fn felt(panels: &[Panel]) -> Figure {
         ])
     };
     let rows: String = panels.iter().map(row).collect();
-    let note = "The sticking force is what of the friction the wall makes while the hand pulls the pad \
-                outwards within it. Changes between push and release are those within the wall; one \
+    let note = "The sticking force is the friction that the wall makes while the hand pulls the pad \
+                outwards within it, over all of the case. Changes between push and release are those within the wall; one \
                 belongs to each way out.";
     let table = tables::table("Felt", &heads, &rows);
     Figure::wide("What the hand feels on its way out", note, String::new(), table)

@@ -119,7 +119,12 @@ fn spreads(settings: &[Setting], title: &str, [eq6, core, reference]: [Get; 3]) 
     let names = settings.iter().map(|s| s.name.clone()).collect();
     let mut plot = Plot::new(title, x, Axis::categories("", names), series);
     plot.height = 150 + 66 * u32::try_from(settings.len()).unwrap_or(8).clamp(2, 40);
-    Figure::plot(title, "A point further left means less dependence on the pad's position.", &plot)
+    let mut note =
+        String::from("A point further left means less dependence on the pad's position.");
+    if plot.series.iter().any(|s| s.points.iter().any(|p| p.0 == 0.0)) {
+        note += " A logarithmic axis has no zero: values of exactly 0 % stand at its left end, at the tick 0.";
+    }
+    Figure::plot(title, &note, &plot)
 }
 
 /// The setting that needs the core most.
@@ -218,14 +223,14 @@ fn position_errors(record: &Record, settings: &[Setting]) -> Figure {
         .map(|(n, s)| Series::line(&s.name, Paint::series(n), cumulative(s)))
         .collect();
     let errors = series.iter().flat_map(|s| s.points.iter().map(|p| p.0));
-    let limit = select::limit(record, "mm", "position");
+    let limit = select::bound(record, "position_mm");
     let x = Axis::log("|Δ position| (mm)", errors.chain(limit));
     let y = Axis::exact("slots with a smaller error (%)", 0.0, 100.0);
     let mut plot = Plot::new("Share of the slots with a smaller position error", x, y, series);
     plot.breaks = limit.into_iter().collect();
     let rms = select::rms(settings.iter().flat_map(fig3_maps::position_errors));
-    let limit = limit.map_or(String::new(), |l| {
-        format!(" The dotted line is the limit of the RMS error, {} mm.", number::short(l))
+    let limit = limit.map_or(select::limits_note(record, "position_mm", "mm").into(), |l| {
+        format!(" The dotted line is the limit of every slot, {} mm.", number::short(l))
     });
     Figure::plot(
         "Distribution of the position error",

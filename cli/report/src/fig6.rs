@@ -169,7 +169,7 @@ fn residual(record: &Record, loads: &[Load]) -> Figure {
         series.push(Series::rings("floating-point reference", Paint::INK, vec![]));
         series.push(Series::line("eq. 6 alone", Paint::INK.dashed(), vec![]));
     }
-    let limits = select::limit(record, "N", "").map_or(vec![], |limit| vec![-limit, limit]);
+    let limits = select::bound(record, "force_n").map_or(vec![], |limit| vec![-limit, limit]);
     let y = Axis::with_zero("ΔF (N)", values.into_iter().chain(limits.iter().copied()));
     let mut plot =
         Plot::new("Measured minus true force over haptic voltage", voltage_axis(loads), y, series);

@@ -30,7 +30,7 @@ pub fn figures(record: &Record) -> Vec<Figure> {
     ]
     .map(|q| general::over_time(record, q));
     let compared = (record.cases.len() > 1).then(|| cases(record));
-    let figures = [force, force_error(record, "estimate"), capacitance, voltage];
+    let figures = [force, force_error(record), capacitance, voltage];
     compared.into_iter().chain(figures).chain(laws::over_time(record)).collect()
 }
 
@@ -43,7 +43,7 @@ fn cases(record: &Record) -> Figure {
         });
         points.collect()
     };
-    let series: Vec<Series> = record
+    let mut series: Vec<Series> = record
         .rows
         .cases()
         .enumerate()
@@ -52,6 +52,8 @@ fn cases(record: &Record) -> Figure {
             Series::line(&name, Paint::series(n), force(rows))
         })
         .collect();
+    // The last case lies behind: a drive's ripple would hide the mean square, which comes first.
+    series.reverse();
     let values = |of: fn(&Point) -> f64| series.iter().flat_map(move |s| s.points.iter().map(of));
     let time = Axis::linear("time since switching on (s)", values(|p| p.0));
     let newtons = Axis::linear("true haptic force (N)", values(|p| p.1));

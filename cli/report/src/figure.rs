@@ -2,7 +2,7 @@
 //! A figure: a title, a legend, drawings, and a sentence on what to see in them.
 
 pub use super::canvas::WIDTH;
-use super::page::escape;
+use super::page::{anchor, escape};
 use super::plot::Plot;
 use super::series::{Mark, Series};
 
@@ -17,14 +17,23 @@ pub struct Figure {
     parts: Option<Parts>,
 }
 
-/// What a figure of one plot consists of.
+/// What a figure of plots consists of.
 #[derive(Clone, Debug, Default)]
 pub struct Parts {
     /// Entries of its legend.
     pub keys: Vec<Key>,
-    /// The plot, an `svg` element.
-    pub drawing: String,
-    /// Height of the plot, where its width is [`WIDTH`].
+    /// The plots.
+    pub drawings: Vec<Drawing>,
+}
+
+/// A plot of a figure.
+#[derive(Clone, Debug, Default)]
+pub struct Drawing {
+    /// What sets it apart from the figure's others; empty where it is the only one.
+    pub name: String,
+    /// An `svg` element.
+    pub svg: String,
+    /// Its height, where its width is [`WIDTH`].
     pub height: u32,
 }
 
@@ -40,21 +49,33 @@ pub struct Key {
 impl Figure {
     /// One plot; its legend follows from its series.
     pub fn plot(title: &str, note: &str, plot: &Plot) -> Figure {
-        let mut entries = entries(&plot.series);
-        if plot.shows_limits() {
-            let swatch = line_swatch(&super::paint::Paint::LIMIT.stroke_class());
-            entries.push(Key { name: "limit".into(), swatch });
+        let figure = Figure::plots(title, note, &[(String::new(), plot.clone())]);
+        Figure { body: plot.svg(), wide: false, ..figure }
+    }
+
+    /// Named plots beside each other, with one legend.
+    pub fn plots(title: &str, note: &str, plots: &[(String, Plot)]) -> Figure {
+        let mut keys: Vec<Key> = Vec::new();
+        for (_, plot) in plots {
+            let limit = plot.shows_limits().then(limit_key);
+            for key in entries(&plot.series).into_iter().chain(limit) {
+                if keys.iter().all(|known| known.name != key.name) {
+                    keys.push(key);
+                }
+            }
         }
-        let legend = entries.iter().map(|of| key(&of.name, &of.swatch)).collect();
-        let drawing = plot.svg();
-        Figure {
-            title: title.into(),
-            note: note.into(),
-            legend,
-            body: drawing.clone(),
-            wide: false,
-            parts: Some(Parts { keys: entries, drawing, height: plot.height }),
-        }
+        let drawn = |(name, plot): &(String, Plot)| Drawing {
+            name: name.clone(),
+            svg: plot.svg(),
+            height: plot.height,
+        };
+        let drawings: Vec<Drawing> = plots.iter().map(drawn).collect();
+        let panel =
+            |of: &Drawing| format!("<div>\n<p>{}</p>\n{}</div>\n", escape(&of.name), of.svg);
+        let panels: String = drawings.iter().map(panel).collect();
+        let body = format!("<div class=\"panels\">\n{panels}</div>\n");
+        let legend = keys.iter().map(|of| key(&of.name, &of.swatch)).collect();
+        Figure { parts: Some(Parts { keys, drawings }), ..Figure::wide(title, note, legend, body) }
     }
 
     /// Anything else, over the whole width; `legend` and `body` are HTML.
@@ -72,7 +93,7 @@ impl Figure {
         &self.note
     }
 
-    /// What it consists of where it is one plot; none of maps, panels and tables.
+    /// What it consists of where all of it are plots; none of maps and tables.
     pub fn parts(&self) -> Option<&Parts> {
         self.parts.as_ref()
     }
@@ -89,10 +110,15 @@ impl Figure {
         let note =
             if note.is_empty() { String::new() } else { format!("<p class=\"note\">{note}</p>\n") };
         format!(
-            "<figure{class}>\n<figcaption>{title}</figcaption>\n{legend}{}{note}</figure>\n",
+            "<figure id=\"{}\"{class}>\n<figcaption>{title}</figcaption>\n{legend}{}{note}</figure>\n",
+            anchor(&self.title),
             self.body
         )
     }
+}
+
+fn limit_key() -> Key {
+    Key { name: "limit".into(), swatch: line_swatch(&super::paint::Paint::LIMIT.stroke_class()) }
 }
 
 /// The legend of named series.

@@ -2,6 +2,7 @@
 //! Any run: every quantity of every pad over time, measured, reference and truth.
 
 use super::axis::Axis;
+use super::driven;
 use super::figure::Figure;
 use super::number;
 use super::paint::Paint;
@@ -33,6 +34,15 @@ const FEW: usize = 300;
 /// Means on the lines of a pad.
 const BINS: usize = 200;
 
+/// Cases that have a panel each; of more, all are in one plot.
+pub const PANELS: usize = 8;
+
+/// The least range of an axis, of its values: 150 V with a noise of 1.5 mV is a straight line.
+const LEAST_RANGE: f64 = 2e-3;
+
+/// A plot over fewer codes than this shows them as steps.
+const CODES: f64 = 40.0;
+
 /// Every quantity that is measured, over time.
 pub fn figures(record: &Record) -> Vec<Figure> {
     quantities(record).into_iter().map(|q| over_time(record, q)).collect()
@@ -53,15 +63,58 @@ pub fn quantities(record: &Record) -> Vec<Quantity> {
 
 /// One quantity of all pads over time.
 pub fn over_time(record: &Record, (title, axis, get): Quantity) -> Figure {
-    let mut series = pads_series(record, get);
-    let y = Axis::linear(axis, series.iter().flat_map(|s| s.points.iter().map(|p| p.1)));
-    series.extend(keys(record));
-    let mut plot = Plot::new(&format!("{title} over time"), time_axis(record), y, series);
-    plot.breaks = breaks(record);
-    let bands = plot.series.iter().any(|s| s.mark == Mark::Band);
-    let notes = [difference_note(record, get, axis), band_note(bands), breaks_note(record)];
+    let plot = |record: &Record| {
+        let mut series = pads_series(record, get);
+        let values = series.iter().flat_map(|s| s.points.iter().map(|p| p.1));
+        let y = Axis::linear(axis, values).at_least(LEAST_RANGE);
+        series.extend(driven::surfaces(record, title));
+        series.extend(keys(record));
+        Plot::new(&format!("{title} over time"), time_axis(record), y, series)
+    };
+    let unit = unit_of(axis);
+    let values = record.rows.iter().map(|row| get(&row.measured));
+    let notes = [
+        error_note(record, get, unit),
+        difference_note(record, get, axis),
+        code_note(record, get, unit, values),
+    ];
     let notes: Vec<_> = notes.into_iter().filter(|note| !note.is_empty()).collect();
-    Figure::plot(title, &notes.join(" "), &plot)
+    of_cases(record, title, &notes.join(" "), plot)
+}
+
+/// A plot over time, of several cases a panel for each, with axes of its own.
+pub fn of_cases(
+    record: &Record,
+    title: &str,
+    note: &str,
+    plot: impl Fn(&Record) -> Plot,
+) -> Figure {
+    let count = record.rows.cases().count();
+    let panels =
+        if (2..=PANELS).contains(&count) { select::by_case(record, PANELS) } else { Vec::new() };
+    let shared = |(name, record): &(String, Record)| {
+        (name.clone(), Plot { share: panels.len(), ..plot(record) })
+    };
+    let plots: Vec<_> = panels.iter().map(shared).collect();
+    let whole = plots.is_empty().then(|| Plot { breaks: breaks(record), ..plot(record) });
+    let all = || plots.iter().map(|(_, plot)| plot).chain(&whole);
+    let bands = all().any(|plot| plot.series.iter().any(|s| s.mark == Mark::Band));
+    let separate = if plots.is_empty() {
+        breaks_note(record)
+    } else {
+        "Each case has axes of its own.".into()
+    };
+    let notes = [note.trim().to_string(), band_note(bands), separate];
+    let notes: Vec<_> = notes.into_iter().filter(|note| !note.is_empty()).collect();
+    match &whole {
+        Some(plot) => Figure::plot(title, &notes.join(" "), plot),
+        None => Figure::plots(title, &notes.join(" "), &plots),
+    }
+}
+
+/// The unit of an axis.
+pub fn unit_of(axis: &str) -> &str {
+    axis.split_once('(').map_or("", |(_, unit)| unit.trim_end_matches(')'))
 }
 
 /// What a band is.
@@ -75,7 +128,7 @@ pub fn band_note(bands: bool) -> String {
     }
 }
 
-/// What was measured, a colour per pad; reference and truth as thin lines over it.
+/// What was measured, a colour per pad, over the truth and, where slots are few, the reference as a dotted line.
 fn pads_series(record: &Record, get: Get) -> Vec<Series> {
     let pads = select::pads(record);
     let measured = |pad: &usize| {
@@ -88,12 +141,14 @@ fn pads_series(record: &Record, get: Get) -> Vec<Series> {
     };
     let truth = |pad: &usize| {
         let points = points(record, *pad, |r| r.truth.map_or(f64::NAN, |t| get(&t.quantities)));
-        Series::line("", Paint::INK, points).mark(Mark::Line(3))
+        // A line of means is narrower than the truth, which frames it; dots are wider.
+        let width = if points.len() <= FEW { 3 } else { 9 };
+        Series::line("", Paint::MUTED, points).mark(Mark::Line(width))
     };
     pads.iter()
-        .flat_map(measured)
+        .map(truth)
         .chain(pads.iter().filter_map(reference))
-        .chain(pads.iter().map(truth))
+        .chain(pads.iter().flat_map(measured))
         .collect()
 }
 
@@ -128,17 +183,42 @@ pub fn noisy(name: &str, paint: Paint, points: Vec<Point>) -> Vec<Series> {
     bands
 }
 
+/// How far what is measured is off the truth.
+fn error_note(record: &Record, get: Get, unit: &str) -> String {
+    let error = |r: &Row| r.truth.map(|t| (get(&r.measured) - get(&t.quantities)).abs());
+    let errors: Vec<_> = record.rows.iter().filter_map(error).filter(|e| e.is_finite()).collect();
+    let Some((_, most)) = select::extent(errors.iter().copied()) else { return String::new() };
+    let [most, rms] =
+        [most, select::rms(errors)].map(|value| number::with_unit(&number::short(value), unit));
+    format!("Measured and true value differ by {most} at most, {rms} RMS.")
+}
+
 /// How far core and reference are apart; their lines hardly show it.
 pub fn difference_note(record: &Record, get: Get, axis: &str) -> String {
-    let unit = axis.split_once('(').map_or("", |(_, unit)| unit.trim_end_matches(')'));
     let difference = |r: &Row| r.reference.map(|q| (get(&r.measured) - get(&q.quantities)).abs());
     match select::extent(record.rows.iter().filter_map(difference)) {
         Some((_, most)) => {
-            let most = number::with_unit(&number::short(most), unit);
+            let most = number::with_unit(&number::short(most), unit_of(axis));
             format!("Largest difference between core and floating-point reference: {most}.")
         }
         None => String::new(),
     }
+}
+
+/// What one code of the core is, where `values` span so few that dots show them as steps.
+pub fn code_note(
+    record: &Record,
+    get: Get,
+    unit: &str,
+    values: impl Iterator<Item = f64>,
+) -> String {
+    let (code, span) = (get(&record.codes), select::extent(values));
+    let few = |(low, high): (f64, f64)| high - low < CODES * code;
+    if record.fidelity == "float" || !span.is_some_and(few) {
+        return String::new();
+    }
+    let code = number::with_unit(&number::short(code), unit);
+    format!("Dots lie in steps: one code of the core is {code}.")
 }
 
 /// What stands for truth and reference in the legend, where there are any.
@@ -149,7 +229,7 @@ pub fn keys(record: &Record) -> Vec<Series> {
         .any(|pad| record.rows.iter().filter(|r| r.pad == *pad).count() < FEW);
     let reference = few && record.rows.iter().any(|r| r.reference.is_some());
     let keys = [
-        (truth, Series::line("true value", Paint::INK, Vec::new())),
+        (truth, Series::line("true value", Paint::MUTED, Vec::new())),
         (reference, Series::line("floating-point reference", Paint::MUTED.dotted(), Vec::new())),
     ];
     keys.into_iter().filter_map(|(there, key)| there.then_some(key)).collect()

@@ -23,7 +23,7 @@ pub fn figures(record: &Record) -> Vec<Figure> {
         trajectories(record),
         force,
         position_error(record),
-        force_error(record, "force"),
+        force_error(record),
         capacitance,
         voltage,
     ]
@@ -40,13 +40,13 @@ fn trajectories(record: &Record) -> Figure {
             .mark(Mark::Dots(8))
     };
     let truth = |pad: &usize| {
-        Series::line("", Paint::INK, trajectory(record, *pad, true_place)).mark(Mark::Line(3))
+        Series::line("", Paint::MUTED, trajectory(record, *pad, true_place)).mark(Mark::Line(3))
     };
     let half = map::half_sheet_mm(record);
     let mut series = vec![frame(half)];
-    series.extend(pads.iter().map(measured));
     series.extend(pads.iter().map(truth));
-    series.push(Series::line("true value", Paint::INK, vec![]));
+    series.extend(pads.iter().map(measured));
+    series.push(Series::line("true value", Paint::MUTED, vec![]));
     let points = || series.iter().flat_map(|s| s.points.iter());
     let (x, y) = (
         side("x (mm)", half.0, points().map(|p| p.0)),
@@ -79,34 +79,28 @@ fn trajectory(record: &Record, pad: usize, place: impl Fn(&Row) -> Point) -> Vec
 
 fn position_error(record: &Record) -> Figure {
     let error = |r: &Row| r.truth.map_or(f64::NAN, |t| select::position_error(&r.measured, &t));
-    let values: Vec<_> = record.rows.iter().map(error).collect();
-    let rms = number::short(select::rms(values.iter().copied()));
-    let mut series = Vec::new();
-    for pad in select::pads(record) {
-        let points = general::points(record, pad, error);
-        let paint = Paint::series(pad);
-        series.push(Series::line(
-            &select::pad_name(record, pad),
-            paint,
-            binned(&points, select::rms),
-        ));
-        series.push(Series::dots(
-            "",
-            paint,
-            binned(&points, |b| select::extent(b).map_or(f64::NAN, |e| e.1)),
-        ));
-    }
-    series.push(Series::dots("largest error", Paint::INK, vec![]));
-    let y = Axis::with_zero("|Δ position| (mm)", values);
-    let mut plot =
-        Plot::new("Distance from the true position", general::time_axis(record), y, series);
-    plot.breaks = general::breaks(record);
-    plot.limits.extend(select::limit(record, "mm", "position"));
-    let limit = if plot.shows_limits() { " The limit applies to the RMS error." } else { "" };
+    let rms = number::short(select::rms(record.rows.iter().map(error)));
+    let plot = |record: &Record| {
+        let mut series = Vec::new();
+        for pad in select::pads(record) {
+            let points = general::points(record, pad, error);
+            let (name, paint) = (select::pad_name(record, pad), Paint::series(pad));
+            series.push(Series::line(&name, paint, binned(&points, select::rms)));
+            let largest = |bin: Vec<f64>| select::extent(bin).map_or(f64::NAN, |e| e.1);
+            series.push(Series::dots("", paint, binned(&points, largest)));
+        }
+        series.push(Series::dots("largest error", Paint::INK, vec![]));
+        let y = Axis::with_zero("|Δ position| (mm)", record.rows.iter().map(error));
+        let time = general::time_axis(record);
+        let mut plot = Plot::new("Distance from the true position", time, y, series);
+        plot.limits.extend(select::bound(record, "position_mm"));
+        plot
+    };
     let note = format!(
-        "Lines: RMS error in each 1/{BINS} of the run; dots: largest error in it. {rms} mm RMS over all pads.{limit}"
+        "Lines: RMS error in each 1/{BINS} of the time; dots: largest error in it. {rms} mm RMS over all pads.{}",
+        select::limits_note(record, "position_mm", "mm")
     );
-    Figure::plot("Position error", &note, &plot)
+    general::of_cases(record, "Position error", &note, plot)
 }
 
 /// A value for each bin of time, from those within it.
@@ -123,21 +117,22 @@ fn binned(points: &[Point], value: impl Fn(Vec<f64>) -> f64) -> Vec<Point> {
         .collect()
 }
 
-/// Measured less true force over time, and the limits of the criterion whose name has the word.
-pub fn force_error(record: &Record, word: &str) -> Figure {
+/// Measured less true force over time, and the limits of a criterion that bounds it in every slot.
+pub fn force_error(record: &Record) -> Figure {
     let error = |r: &Row| r.truth.map_or(f64::NAN, |t| r.measured.force_n - t.quantities.force_n);
-    let values: Vec<_> = record.rows.iter().map(error).collect();
-    let note =
-        format!("{} N RMS over all pads. ", number::short(select::rms(values.iter().copied())));
-    let line = |pad: usize| {
-        let name = select::pad_name(record, pad);
-        general::noisy(&name, Paint::series(pad), general::points(record, pad, error))
+    let plot = |record: &Record| {
+        let line = |pad: usize| {
+            let name = select::pad_name(record, pad);
+            general::noisy(&name, Paint::series(pad), general::points(record, pad, error))
+        };
+        let series: Vec<_> = select::pads(record).into_iter().flat_map(line).collect();
+        let y = Axis::with_zero("ΔF (N)", record.rows.iter().map(error));
+        let time = general::time_axis(record);
+        let mut plot = Plot::new("Measured minus true force", time, y, series);
+        plot.limits = select::bound(record, "force_n").map_or(vec![], |limit| vec![-limit, limit]);
+        plot
     };
-    let series: Vec<_> = select::pads(record).into_iter().flat_map(line).collect();
-    let bands = general::band_note(series.iter().any(|s| s.mark == Mark::Band));
-    let y = Axis::with_zero("ΔF (N)", values);
-    let mut plot = Plot::new("Measured minus true force", general::time_axis(record), y, series);
-    plot.breaks = general::breaks(record);
-    plot.limits = select::limit(record, "N", word).map_or(Vec::new(), |limit| vec![-limit, limit]);
-    Figure::plot("Force error", (note + &bands).trim(), &plot)
+    let rms = number::short(select::rms(record.rows.iter().map(error)));
+    let note = format!("{rms} N RMS over all pads.{}", select::limits_note(record, "force_n", "N"));
+    general::of_cases(record, "Force error", &note, plot)
 }

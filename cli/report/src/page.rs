@@ -5,6 +5,9 @@ use hapticore_run::record::Record;
 
 const STYLE: &str = concat!(include_str!("colours.css"), include_str!("report.css"));
 
+/// Values under the pointer, and a closer look; without it the page reads as before.
+const SCRIPT: &str = include_str!("report.js");
+
 /// Text as it may stand in an element or an attribute.
 pub fn escape(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
@@ -29,7 +32,7 @@ pub fn document(title: &str, main: &str) -> String {
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\" />\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\" />\n\
          <meta name=\"color-scheme\" content=\"light dark\" />\n\
-         <title>{title} – hapticore</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n{main}</main>\n</body>\n</html>\n"
+         <title>{title} – hapticore</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n{main}</main>\n<script>\n//<![CDATA[\n{SCRIPT}//]]>\n</script>\n</body>\n</html>\n"
     )
 }
 
@@ -56,5 +59,27 @@ pub fn section(title: &str, body: &str) -> String {
     if body.is_empty() {
         return String::new();
     }
-    format!("<section>\n<h2>{}</h2>\n{body}</section>\n", escape(title))
+    format!("<section id=\"{}\">\n<h2>{}</h2>\n{body}</section>\n", anchor(title), escape(title))
+}
+
+/// The name by which a title's place in the page is linked.
+pub fn anchor(title: &str) -> String {
+    let plain = |c: char| if c.is_alphanumeric() { c.to_ascii_lowercase() } else { '-' };
+    title.chars().map(plain).collect()
+}
+
+/// Links to the sections that are there, and to figures.
+pub fn contents(sections: &[(&str, String)], figures: &[&str]) -> String {
+    let link =
+        |title: &str| format!("<li><a href=\"#{}\">{}</a></li>", anchor(title), escape(title));
+    let of_figures: String = figures.iter().map(|title| link(title)).collect();
+    let item = |(title, body): &(&str, String)| match *title {
+        _ if body.is_empty() => String::new(),
+        "Figures" if figures.len() > 1 => {
+            link("Figures").replace("</li>", &format!("<ul>{of_figures}</ul></li>"))
+        }
+        title => link(title),
+    };
+    let items: String = sections.iter().map(item).collect();
+    format!("<nav aria-label=\"Contents\"><ul>{items}</ul></nav>\n")
 }

@@ -11,7 +11,7 @@ use plotters::style::RGBColor;
 const SENTINEL: u8 = 0xA5;
 
 /// Colours that tell series apart; beyond them, lines differ by their dashes.
-pub const SERIES: usize = 6;
+pub const SERIES: usize = 8;
 
 /// Steps of the diverging scale on either side of its middle.
 pub const DIVERGING: i32 = 5;
@@ -162,7 +162,7 @@ mod tests {
 
     #[test]
     fn the_classes_of_a_legend_are_those_of_the_drawing() {
-        assert_eq!(Paint::series(7).stroke_class(), "s k11 dash");
+        assert_eq!(Paint::series(9).stroke_class(), "s k11 dash");
         assert_eq!(Paint::diverging(-9).fill_class(), "f k30");
     }
 }

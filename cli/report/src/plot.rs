@@ -49,6 +49,8 @@ pub struct Plot {
     pub breaks: Vec<f64>,
     /// Height where the width is 1200.
     pub height: u32,
+    /// Plots that share what one of them may draw, so that a page of many stays small.
+    pub share: usize,
     /// Characters that the labels of the vertical axis have room for at least, so that plots above
     /// each other line up.
     pub label_characters: usize,
@@ -65,6 +67,7 @@ impl Plot {
             limits: Vec::new(),
             breaks: Vec::new(),
             height: 720,
+            share: 1,
             label_characters: 0,
         }
     }
@@ -79,14 +82,17 @@ impl Plot {
     pub fn svg(&self) -> String {
         let mut drawing = String::new();
         match self.draw(&mut drawing) {
-            Ok(()) => inline(&drawing, &self.about, WIDTH, self.height),
+            Ok(places) => {
+                inline(&drawing, &self.about, WIDTH, self.height).replacen("<svg ", &places, 1)
+            }
             Err(error) => {
                 format!("<p class=\"note\">Not drawn: {}</p>\n", escape(&error.to_string()))
             }
         }
     }
 
-    fn draw(&self, drawing: &mut String) -> Drawn {
+    /// Draws; the start of the `svg` element, with what a script needs to read values off it.
+    fn draw(&self, drawing: &mut String) -> Result<String, Box<dyn Error>> {
         let root = SVGBackend::with_string(drawing, (WIDTH, self.height)).into_drawing_area();
         let chart = self.chart(&root)?;
         frame::draw(&root, &chart, &self.frame())?;
@@ -95,7 +101,29 @@ impl Plot {
         }
         self.tags(&root, &chart)?;
         root.present()?;
-        Ok(())
+        Ok(self.places(&chart))
+    }
+
+    /// The `svg` element's start: of each axis its title, its least and largest value and where these lie.
+    fn places(&self, chart: &Chart) -> String {
+        let (x, y) = (self.x.range(), self.y.range());
+        let [start, end] = [(x.0, y.0), (x.1, y.1)].map(|at| chart.backend_coord(&at));
+        let logs = [(&self.x, "x"), (&self.y, "y")]
+            .map(|(axis, name)| if axis.is_log() { name } else { "" });
+        let [x_title, y_title] = [&self.x, &self.y].map(|axis| escape(&axis.title));
+        format!(
+            "<svg data-x=\"{} {} {} {}\" data-y=\"{} {} {} {}\" data-log=\"{}\" data-x-title=\"{x_title}\" \
+             data-y-title=\"{y_title}\" ",
+            x.0,
+            x.1,
+            start.0,
+            end.0,
+            y.0,
+            y.1,
+            start.1,
+            end.1,
+            logs.concat()
+        )
     }
 
     fn frame(&self) -> Frame<'_> {
@@ -181,14 +209,14 @@ impl Plot {
     /// Width of a column in which a line keeps its extremes.
     fn column(&self) -> i32 {
         let lines = self.series.iter().filter(|s| matches!(s.mark, Mark::Line(_))).count();
-        i32::try_from(WIDTH as usize * lines / COLUMNS).unwrap_or(2).max(2)
+        i32::try_from(WIDTH as usize * lines * self.share / COLUMNS).unwrap_or(2).max(2)
     }
 
     /// Dots that each series may have.
     fn dots_each(&self) -> usize {
         let dotted = |s: &&Series| matches!(s.mark, Mark::Dots(_) | Mark::Rings(_));
         let series = self.series.iter().filter(dotted).count();
-        (DOTS / series.max(1)).min(900)
+        (DOTS / (series.max(1) * self.share)).min(900)
     }
 
     /// The points in units of the drawing, in runs between those that have no place within the

@@ -64,10 +64,49 @@ pub fn pads(record: &Record) -> Vec<usize> {
     pads
 }
 
-/// The first limit in this unit whose criterion's name contains a word.
-pub fn limit(record: &Record, unit: &str, word: &str) -> Option<f64> {
-    let fits = |name: &str| name.to_lowercase().contains(word);
-    record.criteria.iter().find(|c| c.unit == unit && fits(&c.name)).map(|c| c.limit)
+/// The cases that have rows, each as a record of its own whose time begins with it: up to `most` of them where they are
+/// several.
+pub fn by_case(record: &Record, most: usize) -> Vec<(String, Record)> {
+    let alone = |rows: &[Row]| {
+        let start_s = rows[0].time_s;
+        let rows = rows.iter().map(|row| Row { time_s: row.time_s - start_s, ..row.clone() });
+        let (cases, pads, criteria) =
+            (record.cases.clone(), record.pads.clone(), record.criteria.clone());
+        Record {
+            rows: rows.collect(),
+            cases,
+            pads,
+            criteria,
+            sheet_mm: record.sheet_mm,
+            ..Record::default()
+        }
+    };
+    let cases = record.rows.cases().take(most);
+    cases.map(|rows| (case_name(record, rows[0].case), alone(rows))).collect()
+}
+
+/// The limit of a criterion that bounds the error of this quantity in every slot of the rows.
+pub fn bound(record: &Record, of: &str) -> Option<f64> {
+    let names: Vec<_> = record.rows.cases().map(|rows| record.cases.get(rows[0].case)).collect();
+    let covers = |cases: &[String]| {
+        cases.is_empty() || names.iter().all(|name| name.is_some_and(|name| cases.contains(name)))
+    };
+    let criteria = record.criteria.iter().filter(|criterion| criterion.applicable);
+    let bounds =
+        criteria.filter_map(|criterion| Some((criterion.bounds.as_ref()?, criterion.limit)));
+    let holding = bounds.filter(|(bounds, _)| bounds.of == of && covers(&bounds.cases));
+    holding.map(|(_, limit)| limit).reduce(f64::min)
+}
+
+/// What is said where limits are not drawn: those of means and of chosen slots.
+pub fn limits_note(record: &Record, of: &str, unit: &str) -> &'static str {
+    let has_others = record.criteria.iter().any(|criterion| criterion.unit == unit);
+    match bound(record, of) {
+        None if has_others => {
+            " Limits that criteria set to means, RMS errors or chosen slots are not drawn."
+        }
+        _ => "",
+    }
 }
 
 /// Distance of the measured from the true position, mm.

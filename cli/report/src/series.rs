@@ -131,29 +131,24 @@ pub fn thin_dots(points: &[(i32, i32)], most: usize) -> Vec<(i32, i32)> {
     }
 }
 
-/// A line without the points that hardly show: of neighbours that share a column of `width`, the
-/// first, least, largest and last.
+/// A line without the points that hardly show: its ends, and of neighbours that share a column of `width` the least and the
+/// largest.
 pub fn thin_line(points: &[(i32, i32)], width: i32) -> Vec<(i32, i32)> {
-    let mut kept: Vec<(i32, i32)> = Vec::new();
+    let mut kept: Vec<(i32, i32)> = points.first().copied().into_iter().collect();
     for column in points.chunk_by(|a, b| a.0 / width == b.0 / width) {
-        for index in extremes(column) {
-            if kept.last() != Some(&column[index]) {
-                kept.push(column[index]);
-            }
-        }
+        kept.extend(extremes(column));
     }
+    kept.extend(points.last());
+    kept.dedup();
     kept
 }
 
-/// First, least, largest and last of a column, in their order.
-fn extremes(column: &[(i32, i32)]) -> Vec<usize> {
+/// Least and largest of a column, in their order.
+fn extremes(column: &[(i32, i32)]) -> [(i32, i32); 2] {
     let height = |&i: &usize| column[i].1;
     let least = (0..column.len()).min_by_key(height).unwrap_or(0);
     let largest = (0..column.len()).max_by_key(height).unwrap_or(0);
-    let mut indices = vec![0, least, largest, column.len() - 1];
-    indices.sort_unstable();
-    indices.dedup();
-    indices
+    [least.min(largest), least.max(largest)].map(|index| column[index])
 }
 
 #[cfg(test)]

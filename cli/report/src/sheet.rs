@@ -36,7 +36,7 @@ const SWATCH: [u32; 3] = [56, 12, 30];
 /// Between a figure and the next.
 const GAP: u32 = 40;
 
-/// The figures that are one plot each, below each other; none where no figure is.
+/// The figures of plots, below each other; none where no figure is.
 pub fn svg(figures: &[Figure], modes: Modes) -> Option<String> {
     let mut sheet = Sheet::default();
     for figure in figures {
@@ -61,8 +61,13 @@ impl Sheet {
         }
         self.line(figure.title(), "title f k0");
         self.legend(&parts.keys);
-        self.place(&parts.drawing, [0, WIDTH, parts.height]);
-        self.height += parts.height;
+        for drawing in &parts.drawings {
+            if !drawing.name.is_empty() {
+                self.line(&drawing.name, "f k0");
+            }
+            self.place(&drawing.svg, [0, WIDTH, drawing.height]);
+            self.height += drawing.height;
+        }
         for line in wrapped(figure.note(), (WIDTH / CHARACTER) as usize) {
             self.line(&line, "f k1");
         }
@@ -188,7 +193,7 @@ mod tests {
             assert!(texts.iter().any(|text| text.trim() == part), "{part}");
         }
         assert!(text.contains("stroke: #f2440f") && text.contains("prefers-color-scheme: dark"));
-        let drawing = &figures[0].parts().expect("a plot").drawing;
+        let drawing = &figures[0].parts().expect("a plot").drawings[0].svg;
         let lines = |text: &str| text.lines().filter(|of| of.contains("<polyline")).count();
         assert_eq!(lines(&text), 2 * lines(drawing));
     }

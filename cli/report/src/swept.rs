@@ -124,10 +124,12 @@ fn error_over_x(record: &Record, (title, axis, get): Quantity) -> Figure {
     let vertical = Axis::with_zero(&format!("Δ{axis}"), points().map(|p| p.1));
     let rms = number::short(select::rms(points().map(|p| p.1)));
     let title = format!("{title}: measured minus true value");
-    let note = format!("RMS error over all positions: {rms}.");
+    let code = general::code_note(record, get, general::unit_of(axis), points().map(|p| p.1));
+    let rms = number::with_unit(&rms, general::unit_of(axis));
+    let note = format!("RMS error over all positions: {rms}. {code}");
     Figure::plot(
         &title,
-        &note,
+        note.trim(),
         &Plot::new(&format!("{title}, over x"), horizontal, vertical, series),
     )
 }

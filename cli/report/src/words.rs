@@ -39,3 +39,11 @@ pub fn stability(record: &Record) -> impl Iterator<Item = String> {
 pub fn off(percent: f64, finer: &str) -> String {
     format!("{} % from {finer}", number(percent))
 }
+
+/// How fast the device was simulated: `41 × real time`.
+pub fn speed(record: &Record) -> String {
+    let speed = record.simulated_seconds / record.wall_seconds;
+    let decimals =
+        if speed < 10.0 { (1.0 - speed.log10().floor()).clamp(0.0, 6.0) as usize } else { 0 };
+    if speed.is_finite() { format!("{speed:.decimals$} × real time") } else { "–".into() }
+}

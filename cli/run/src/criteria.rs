@@ -55,7 +55,13 @@ fn measure_criterion(criterion: &Criterion, cases: &[CaseRows]) -> record::Crite
         unit: criterion.unit.clone(),
         baseline: baseline(criterion)
             .map(|(name, of)| (name.to_string(), worst(&|rows| of(criterion, rows)))),
+        bounds: bounds(criterion),
     }
+}
+
+fn bounds(criterion: &Criterion) -> Option<record::Bounds> {
+    let each = criterion.measure == Measure::MaxAbsError && criterion.filters.is_empty();
+    each.then(|| record::Bounds { of: criterion.of.name(), cases: criterion.cases.clone() })
 }
 
 /// The greatest value; not a number where there is none, or where one of them is none.

@@ -110,6 +110,18 @@ pub struct Driven {
     /// The force that the core measured, N, where the host takes out of frames what other pads did to them: a controller
     /// acts on this one.
     pub core_n: Option<f64>,
+    /// The wall that is known by the slot's part; none of other parts, and where the wall is off.
+    #[serde(skip)]
+    pub wall: Option<WallPlace>,
+}
+
+/// Where a wall is, along x, or along y for the part by which that one is known.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct WallPlace {
+    /// Its surface as the pad's last part meets it, mm from the sheet's centre.
+    pub surface_mm: f64,
+    /// How deep that part lies within, mm; negative outside.
+    pub depth_mm: f64,
 }
 
 /// A game of air hockey as a slot begins.
@@ -192,6 +204,18 @@ pub struct Criterion {
     pub baseline: Option<(String, f64)>,
     /// Whether any slot meets the criterion's condition.
     pub applicable: bool,
+    /// Of which slots the limit bounds the error one by one; none of means, of other measures and under a condition.
+    #[serde(skip)]
+    pub bounds: Option<Bounds>,
+}
+
+/// The slots whose error a criterion bounds, each for itself.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Bounds {
+    /// The quantity, as in `frames.csv`; a position is `position_mm`.
+    pub of: &'static str,
+    /// Names of the cases; all where empty.
+    pub cases: Vec<String>,
 }
 
 /// An effect of the scene and what it cost.
@@ -386,6 +410,11 @@ pub struct Record {
     /// The force loops as they were measured, where that was asked for.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub bode: Vec<Bode>,
+    /// When the run began: `2026-11-30T01:02:03Z`.
+    pub date: String,
+    /// What one code of each of a frame's words is, for those that are proportional to it; zero of others, and of a capture.
+    #[serde(skip)]
+    pub codes: Quantities,
     /// One row per finished slot.
     #[serde(skip)]
     pub rows: Rows,

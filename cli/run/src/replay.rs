@@ -13,11 +13,12 @@ use hapticore_host::{DeviceCalibration, Residual, SlotClock, residual};
 
 use crate::capture::{self, Adc, BROKEN, Cut, Described, Shape, Slots, Source};
 use crate::engine::{Fidelity, Signals, Slot};
+use crate::findings::{Findings, Tally};
 use crate::haptic::Meter;
-use crate::record::{Provenance, Record, Row, Rows};
+use crate::record::{Provenance, Quantities, Record, Row, Rows};
 use crate::session::{MOST_PADS, Options, Session};
 use crate::wiring::Wiring;
-use crate::{calibrate, inputs, interrupt, silent};
+use crate::{calibrate, inputs, interrupt, provenance, silent};
 
 /// The profile where none is named.
 const PROFILE: &str = "standard";
@@ -184,7 +185,9 @@ struct Replay<'a> {
     channels_flag: Option<Option<&'static str>>,
     pads: usize,
     slots: usize,
+    tally: Tally,
     start: Instant,
+    date: String,
 }
 
 impl<'a> Replay<'a> {
@@ -213,7 +216,9 @@ impl<'a> Replay<'a> {
             channels_flag: None,
             pads: profile.pads as usize,
             slots: 0,
+            tally: Tally::default(),
             start: Instant::now(),
+            date: provenance::now(),
         })
     }
 
@@ -268,6 +273,7 @@ impl<'a> Replay<'a> {
         let flag = *self.channels_flag.get_or_insert_with(|| self.wiring.flag());
         for mut row in std::mem::take(&mut self.waiting) {
             flag.into_iter().for_each(|flag| add_flag(&mut row, flag));
+            self.tally.add(&row);
             (self.sink)(row)?;
         }
         Ok(())
@@ -278,6 +284,8 @@ impl<'a> Replay<'a> {
         let mut warnings: Vec<String> = self.wiring.notes();
         warnings.extend(self.meter.warnings(profile));
         warnings.extend(of_table);
+        let pads: Vec<_> = (0..self.pads).map(|pad| format!("pad {pad}")).collect();
+        let flagged = self.tally.flagged("main", &pads);
         Record {
             title: format!("Replay of {}", plan.capture.display()),
             scene: plan.capture.file_stem().unwrap_or_default().to_string_lossy().into_owned(),
@@ -286,14 +294,14 @@ impl<'a> Replay<'a> {
             profile: profile.name.clone(),
             fidelity: plan.fidelity.name().into(),
             cases: vec!["main".into()],
-            pads: (0..self.pads).map(|pad| format!("pad {pad}")).collect(),
+            pads,
             effects: Vec::new(),
             criteria: Vec::new(),
             force_laws: None,
             errors: self.session.errors(),
             simulated_seconds: self.clock.seconds(self.slots),
             wall_seconds: self.start.elapsed().as_secs_f64(),
-            findings: Default::default(),
+            findings: Findings { flagged, ..Findings::default() },
             warnings,
             position_table: Some(self.residual),
             sheet_mm: None,
@@ -302,6 +310,8 @@ impl<'a> Replay<'a> {
             gains: BTreeMap::new(),
             stability: BTreeMap::new(),
             bode: Vec::new(),
+            date: self.date,
+            codes: Quantities::default(),
             provenance: Provenance::new(),
             rows: Rows::default(),
         }

@@ -10,8 +10,10 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use anyhow::{Result, bail};
+use hapticore_contract::frame::{Field, Flags, Frame};
 use hapticore_contract::profile::Profile;
 use hapticore_host::residual::{self, Residual};
+use hapticore_host::{Quantities, Units};
 use hapticore_scene::{
     ControlPlan, Figure, HapticWave, LevelDeviation, Quantity, Scene, Timing, did_you_mean,
 };
@@ -25,7 +27,7 @@ use crate::criteria::{self, CaseRows};
 use crate::engine::Fidelity;
 use crate::findings::{self, Findings};
 use crate::record::{Effect, ForceLawErrors, Provenance, Record, Row, Rows, Stability};
-use crate::{errors, haptic, inputs, interrupt};
+use crate::{errors, haptic, inputs, interrupt, provenance};
 
 /// Below this the haptic voltage is off, V rms.
 const HAPTIC_OFF_V: f64 = 1.0;
@@ -84,7 +86,7 @@ pub fn run(
     mut recorder: Capture,
     progress: &(dyn Fn() + Sync),
 ) -> Result<(Record, Capture)> {
-    let start = Instant::now();
+    let (date, start) = (provenance::now(), Instant::now());
     let outcomes = match recorder.as_deref_mut() {
         Some(recorder) => vec![cases[0].run(settings, Some(recorder), progress)?],
         None => cases
@@ -94,6 +96,7 @@ pub fn run(
     };
     let mut record = gather(scene, cases, outcomes);
     record.wall_seconds = start.elapsed().as_secs_f64();
+    record.date = date;
     let (residual, deviations) = rayon::join(|| position_table(cases), || deviations(cases));
     record.position_table = residual?;
     add_deviations(&mut record.effects, deviations?);
@@ -181,9 +184,18 @@ fn gather(scene: &Scene, cases: &[Case], outcomes: Vec<Outcome>) -> Record {
         gains: BTreeMap::new(),
         stability: BTreeMap::new(),
         bode: Vec::new(),
+        date: String::new(),
+        codes: codes(&cases[0]),
         provenance: Provenance::default(),
         rows,
     }
+}
+
+/// One code of each word; the haptic voltage is no multiple of one, but a square root.
+fn codes(case: &Case) -> Quantities {
+    let frame = Frame { pad: 0, codes: [1; Field::ALL.len()], flags: Flags::default() };
+    let units = Units::new(&case.profile, &case.device.device);
+    Quantities { haptic_v_rms: 0.0, ..units.quantities(&frame.measurement(&case.profile)) }
 }
 
 /// What the scene makes mean less than it seems to, once for all cases.

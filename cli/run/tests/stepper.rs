@@ -339,6 +339,21 @@ fn a_led_finger_meets_the_wall_where_it_was_put_and_none_when_it_is_off() {
     assert!(target_n(&again) > 0.3, "{again:?}");
 }
 
+/// The scene's hand rests 1.2 mm deep in either wall, and 1.5 mm in their corner.
+#[test]
+fn depths_are_of_the_wall_that_the_part_is_known_by() {
+    let rows = step(&mut stepper("wall-2d", &[], FIXED), 12_800);
+    let deepest = |part: usize| {
+        let of_part = rows.iter().filter(|row| row.truth.is_some_and(|truth| truth.part == part));
+        let depths = of_part.filter_map(|row| Some(row.driven?.wall?.depth_mm));
+        depths.reduce(f64::max)
+    };
+    assert_eq!([deepest(0), deepest(1)], [None, None], "no wall is known by these");
+    for depth_mm in [deepest(2), deepest(3)].map(|depth| depth.expect("a wall")) {
+        assert!((1.4..2.5).contains(&depth_mm), "{depth_mm} mm");
+    }
+}
+
 #[test]
 fn a_target_is_followed_by_its_pad_alone_until_the_next() {
     let (scene, profile) = load("fig9", &[]);

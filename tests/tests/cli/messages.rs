@@ -8,7 +8,7 @@ use hapticore_contract::profile::{Profile, Wall};
 use hapticore_scene::gallery;
 use serde_json::Value;
 
-use crate::{expect, refuse};
+use crate::{expect, finish, refuse};
 
 #[test]
 fn scenes_lists_every_bundled_scene() {
@@ -23,6 +23,90 @@ fn scenes_lists_every_bundled_scene() {
             !json[index]["effects"].as_array().unwrap().is_empty()
                 && json[index]["title"].is_string()
         );
+    }
+}
+
+#[test]
+fn scenes_fit_a_terminal_and_one_is_told_whole() {
+    let folder = tempfile::tempdir().unwrap();
+    let say = |args: &[&str]| String::from_utf8(expect(folder.path(), args, 0).stdout).unwrap();
+    let longest = say(&["scenes"]).lines().map(|line| line.chars().count()).max().unwrap();
+    assert!(longest <= 100, "{longest} columns");
+    let charge = say(&["scenes", "--show", "minimal-charge"]);
+    for part in [
+        "Minimal: charge",
+        "still reads all of it",
+        "  square",
+        "  friction under a sine",
+        "  charge 0.4 in 0.1 s",
+    ] {
+        assert!(charge.contains(part), "{part}: {charge}");
+    }
+    let refused = expect(folder.path(), &["scenes", "--show", "fig66"], 2).stderr;
+    let refused = String::from_utf8(refused).unwrap();
+    assert!(
+        refused.contains("--show: expected a bundled scene") && refused.contains("\"fig66\""),
+        "{refused}"
+    );
+    for (name, _) in gallery::all() {
+        let scene: Value =
+            serde_json::from_str(&say(&["scenes", "--show", name, "--json"])).unwrap();
+        assert!(!scene[0]["summary"].as_str().unwrap().is_empty(), "{name} says what it is about");
+    }
+}
+
+#[test]
+fn a_run_says_less_or_more() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = |more: &[&str]| {
+        let args = ["simulate", "minimal-sheet", "--out", "o"];
+        String::from_utf8(expect(folder.path(), &[&args, more].concat(), 0).stdout).unwrap()
+    };
+    let plain = run(&[]);
+    let speed = plain.lines().find(|line| line.contains("s of device time in")).expect("the speed");
+    assert!(speed.ends_with("× real time"), "{speed}");
+    assert!(
+        plain.contains("flags: no frame carries one") && plain.contains("3 of 3 criteria passed"),
+        "{plain}"
+    );
+    assert!(!plain.contains("share of all effects") && !plain.contains('\u{1b}'), "{plain}");
+    assert_eq!(run(&["-q"]), "");
+    let verbose = run(&["-v"]);
+    assert!(verbose.contains("share of all effects") && verbose.contains("· seed "), "{verbose}");
+    let version = String::from_utf8(expect(folder.path(), &["--version"], 0).stdout).unwrap();
+    let commit = version.trim_end().trim_end_matches(')').split('(').nth(1).expect("a commit");
+    assert!(
+        commit.trim_end_matches("-modified").len() == 40 && verbose.contains(commit),
+        "{version}"
+    );
+}
+
+#[test]
+fn a_sticking_force_has_one_value_in_a_report() {
+    let folder = tempfile::tempdir().unwrap();
+    finish(folder.path(), &["simulate", "fig15", "--out", "o"]);
+    let summary: Value =
+        serde_json::from_slice(&fs::read(folder.path().join("o/summary.json")).unwrap()).unwrap();
+    let criteria = summary["criteria"].as_array().unwrap();
+    let named =
+        criteria.iter().filter(|it| it["name"].as_str().unwrap().contains("sticking force"));
+    let measured: Vec<f64> = named.map(|it| it["measured"].as_f64().unwrap()).collect();
+    let sticking =
+        |case: usize| summary["findings"]["tracking"][case]["sticking_n"].as_f64().unwrap();
+    assert_eq!(measured, [sticking(0)]);
+    let report = fs::read_to_string(folder.path().join("o/report.html")).unwrap();
+    for case in ["rule A", "rule B", "eq. 11", "larger", "smaller"] {
+        let cell = |table: &str| {
+            let table = report.split(&format!("aria-label=\"{table}\"")).nth(1).expect("the table");
+            let row =
+                table.split("<tr>").find(|row| row.contains(case)).expect("the case").to_string();
+            let cell = row
+                .split("</td>")
+                .find(|cell| cell.contains("mean sticking force"))
+                .map(String::from);
+            cell.unwrap_or_default().rsplit('>').next().unwrap_or_default().to_string()
+        };
+        assert_eq!(cell("Tracking"), cell("Felt"), "{case}");
     }
 }
 

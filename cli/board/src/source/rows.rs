@@ -31,7 +31,7 @@ impl Board {
                 // A board whose drive is off misses its host.
                 fault: driven.faults.any() && self.session.drives(),
                 free: profile.wall.map(|_| driven.free),
-                core_n: None,
+                ..Driven::default()
             }
         });
         Row {

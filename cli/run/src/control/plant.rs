@@ -16,7 +16,7 @@ use hapticore_scene::{EffectCost, Plant, Truth, WallPlan};
 
 use crate::engine::Slot;
 use crate::maker::Maker;
-use crate::record::Driven;
+use crate::record::{Driven, WallPlace};
 
 /// A sine on top of what a loop does, from a time on.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -220,7 +220,22 @@ impl LoopPlant {
         if let Some(drive) = drive {
             self.driven[pad] = Some(self.driven(of, &drive)?);
         }
-        Ok(self.driven[pad])
+        let wall = self.wall_at(of);
+        Ok(self.driven[pad].map(|driven| Driven { wall, ..driven }))
+    }
+
+    /// The wall that is known by the part of a slot. It is met by the pad's last part, also along y.
+    fn wall_at(&self, of: &LoopSlot) -> Option<WallPlace> {
+        let (part, parts_mm) = (of.truth.part, self.maker.device().parts_mm());
+        let along_y = self.wall.as_ref()?.along_y.is_some() && part == Wall::PART_OF_Y as usize;
+        let known = along_y || part + 1 == parts_mm.len();
+        let surface =
+            self.surfaces[of.slot.pad].filter(|at| known && at.mm.abs() < FAR_MM / 2.0)?;
+        let axis = usize::from(along_y);
+        let last_mm = parts_mm.last()?[axis] - parts_mm.get(part)?[axis];
+        let mm = [of.truth.x_mm, of.truth.y_mm][axis] + last_mm;
+        let depth_mm = if surface.right { mm - surface.mm } else { surface.mm - mm };
+        Some(WallPlace { surface_mm: surface.mm, depth_mm })
     }
 
     fn driven(&mut self, of: &LoopSlot, drive: &Drive) -> Result<Driven> {
@@ -232,7 +247,7 @@ impl LoopPlant {
         let (limited, fault) = (drive.low | drive.high, drive.faults.any());
         let target_n = drive.walled.map_or(of.target_n, |walled| walled.target_n);
         let free = drive.walled.map(|walled| walled.free);
-        Ok(Driven { target_n, drive_v_rms, limited, fault, free, core_n: None })
+        Ok(Driven { target_n, drive_v_rms, limited, fault, free, ..Driven::default() })
     }
 
     /// What makes the slots.

@@ -80,6 +80,36 @@ impl Findings {
     }
 }
 
+/// Flags counted row by row, where rows are not kept.
+#[derive(Debug, Clone, Default)]
+pub struct Tally {
+    frames: BTreeMap<usize, usize>,
+    flagged: BTreeMap<(usize, String), usize>,
+}
+
+impl Tally {
+    /// Counts a row.
+    pub fn add(&mut self, row: &Row) {
+        *self.frames.entry(row.pad).or_default() += 1;
+        for flag in flags(row) {
+            *self.flagged.entry((row.pad, flag.to_string())).or_default() += 1;
+        }
+    }
+
+    /// The flagged frames of all pads, in a case of this name.
+    pub fn flagged(self, case: &str, pads: &[String]) -> Vec<Flagged> {
+        let of = |((pad, flag), frames): ((usize, String), usize)| Flagged {
+            flag,
+            case: case.into(),
+            pad: pads.get(pad).cloned().unwrap_or_else(|| format!("pad {pad}")),
+            frames,
+            of: self.frames[&pad],
+            force_percent: None,
+        };
+        self.flagged.into_iter().map(of).collect()
+    }
+}
+
 fn flags(row: &Row) -> impl Iterator<Item = &str> {
     row.flags.split('+').filter(|flag| !flag.is_empty())
 }

@@ -92,7 +92,7 @@ impl<'a> Values<'a> {
                 "wall gap.rung pad.0.load_g force_n columns criteria stimulus [[pad]] pad.position_mm.circle wal .. pad.0.0 x",
             ),
             ("new", "file") => one_of(rng, "new.toml nowhere/new.toml folder.toml empty.csv ."),
-            (_, "scene") => scene.to_string(),
+            (_, "scene" | "show") => scene.to_string(),
             (_, "set") => self.setting(rng, scene),
             (_, "case") => self.case(rng, scene),
             (_, "profile") => either(rng, &BUNDLED.map(|(name, _)| name), &files.profiles),
