@@ -40,7 +40,7 @@ module hapticore_loop_controller (
     output reg force_fault // u1.0  A force was beyond its cap.
 );
 
-    reg [3:0] task_q; // u4.0  0 idle, 1 root, 2 curve, 3 interpolate, 4 square, 5 stiffness, 6 target, 7 divide, 8 inverse_root, 9 force_root, 10 error, 11 correct, 12 combine, 13 limit
+    reg [3:0] task_q; // u4.0  0 idle, 1 root, 2 curve, 3 interpolate, 4 square, 5 stiffness, 6 target, 7 divide, 8 inverse_root, 9 force_root, 10 error, 11 correct, 12 trim, 13 combine, 14 limit
     reg [2:0] count; // u3.0
     reg signed [20:0] left; // s21.0
     reg [17:0] right; // u18.0
@@ -48,8 +48,8 @@ module hapticore_loop_controller (
     reg [19:0] root; // u20.20
     reg [19:0] curve_drive; // u20.20
     reg signed [20:0] error; // s21.20  √F_t − √F.
-    reg signed [20:0] proportional_q; // s21.20
-    reg signed [28:0] correction_q; // s29.28  The filter's new state, or the integral with this frame.
+    reg signed [20:0] proportional_q; // s21.20  What comes on top of the curve in proportion: to the error, or by the trim to the drive.
+    reg signed [28:0] correction_q; // s29.28  The filter's new state, or the integral or the trim with this frame.
     reg [22:0] pad_word; // u23.0  Of the pad, as its memory has it: a clock late, so that no path goes from memory to memory.
     reg [17:0] wanted; // u18.18  Before slew: within 0 and the rail.
     reg [17:0] least; // u18.18  What slew allows.
@@ -101,9 +101,9 @@ module hapticore_loop_controller (
     wire task_is_correct = task_q == 4'd11; // u1.0
     wire bit_4b82 = (task_is_interpolate | task_is_error) | task_is_correct; // u1.0
     wire bit_90b4 = (((task_is_root | task_is_force_root) & sqrt_done) | (task_is_curve & (count == 3'd1))) | (bit_4b82 & (count == 3'd3)); // u1.0
-    wire task_is_combine = task_q == 4'd12; // u1.0
-    wire write_pads = task_q == 4'd13; // u1.0
-    wire bit_f2bf = (bit_90b4 | task_is_combine) | write_pads; // u1.0
+    wire task_is_combine = task_q == 4'd13; // u1.0
+    wire write_pads = task_q == 4'd14; // u1.0
+    wire bit_5de2 = (bit_90b4 | task_is_combine) | write_pads; // u1.0
     wire [7:0] sum_4633 = {1'd0, silent} + {7'd0, ~(silent == 7'd100)}; // u8.0
     wire [6:0] next_silent = alive ? 7'd0 : tick ? sum_4633[6:0] : silent; // u7.0
     wire not_clear_faults = ~clear_faults; // u1.0
@@ -120,7 +120,7 @@ module hapticore_loop_controller (
     wire signed [18:0] difference_7d90 = {1'd0, choice_919f} - {1'd0, slew}; // s19.18
     wire [18:0] sum_1cea = {1'd0, choice_919f} + {1'd0, pad_word[22] ? ((18'd4096 < slew) ? 18'd4096 : slew) : slew}; // u19.18
     wire [3:0] count_plus_1 = {1'd0, count} + 4'd1; // u4.0
-    wire bit_a4ac = bit_f2bf & task_is_interpolate; // u1.0
+    wire bit_293d = bit_5de2 & task_is_interpolate; // u1.0
     wire [17:0] choice_2592 = invalid ? choice_919f : wanted; // u18.18
     wire [4:0] choice_2c28 =
         invalid ? ((~(pad_word[21:18] < 4'd8)) ? {1'd0, pad_word[21:18]}
@@ -132,7 +132,7 @@ module hapticore_loop_controller (
     wire signed [20:0] quantized_b714 =
         (rounded[21:20] == {2{rounded[21]}}) ? rounded[20:0] : {rounded[21], {20{~rounded[21]}}}; // s21.20
     wire signed [21:0] sum_ca3b = {2'd0, curve_drive} + {{1{quantized_b714[20]}}, quantized_b714}; // s22.20
-    wire [19:0] choice_0867 = (bit_f2bf & task_is_root) ? quantized_12d7 : root; // u20.20
+    wire [19:0] choice_3d91 = (bit_5de2 & task_is_root) ? quantized_12d7 : root; // u20.20
     wire signed [24:0] rounded_2 = {multiplier_product[38], multiplier_product[38:15]} + {24'd0, multiplier_product[14] & (multiplier_product[15] | (|multiplier_product[13:0]))};
     wire signed [32:0] rounded_3 = {multiplier_product[38], multiplier_product[38:7]} + {32'd0, multiplier_product[6] & (multiplier_product[7] | (|multiplier_product[5:0]))};
     wire signed [28:0] quantized_1782 =
@@ -147,14 +147,14 @@ module hapticore_loop_controller (
         : (choice_2592 < least) ? least
         : choice_2592)
         : choice_0854; // u18.18
-    wire less_975a = next_drive_q < wanted; // u1.0
+    wire less_b462 = next_drive_q < wanted; // u1.0
     wire less_011e = correction_q < choice_a248; // u1.0
     wire signed [30:0] shifted = {{3'd0, next_drive_q, 2'd0} - {{1{sum_ec7d[21]}}, sum_ec7d}, 8'd0};
-    wire signed [28:0] quantized_ea26 =
+    wire signed [28:0] quantized_5b51 =
         (shifted[30:28] == {3{shifted[30]}}) ? shifted[28:0] : {shifted[30], {28{~shifted[30]}}}; // s29.28
     wire bit_98fb = ~bit_24ce; // u1.0
-    wire [1:0] joined_4684 = {(write_pads & pad_is_1) ? bit_98fb : known[1], (write_pads & pad_is_0) ? bit_98fb : known[0]}; // u2.0
-    wire [3:0] joined_b4cc = {(write_pads & pad_is_3) ? bit_98fb : known[3], {(write_pads & pad_is_2) ? bit_98fb : known[2], joined_4684}}; // u4.0
+    wire [1:0] joined_c941 = {(write_pads & pad_is_1) ? bit_98fb : known[1], (write_pads & pad_is_0) ? bit_98fb : known[0]}; // u2.0
+    wire [3:0] joined_cd0f = {(write_pads & pad_is_3) ? bit_98fb : known[3], {(write_pads & pad_is_2) ? bit_98fb : known[2], joined_c941}}; // u4.0
 
     hapticore_loop_multiplier_6 u_multiplier (
         .clock(clock),
@@ -180,7 +180,7 @@ module hapticore_loop_controller (
     end
 
     always @(posedge clock) begin
-        if (write_pads) pads[pad] <= {{lifted | (pad_word[22] & (invalid | less_975a)), choice_2c28[3:0]}, next_drive_q};
+        if (write_pads) pads[pad] <= {{lifted | (pad_word[22] & (invalid | less_b462)), choice_2c28[3:0]}, next_drive_q};
         pads_word <= pads[pad];
     end
 
@@ -190,7 +190,7 @@ module hapticore_loop_controller (
     end
 
     always @(posedge clock) begin
-        if (write_pads) corrections[pad] <= lifted ? 29'd0 : invalid ? choice_a248 : (less_011e ? (low_q | (wanted < next_drive_q)) : (high_q | less_975a)) ? ((less_011e ? (quantized_ea26 < choice_a248) : (choice_a248 < quantized_ea26)) ? quantized_ea26 : choice_a248) : correction_q;
+        if (write_pads) corrections[pad] <= lifted ? 29'd0 : invalid ? choice_a248 : (less_011e ? (low_q | (wanted < next_drive_q)) : (high_q | less_b462)) ? ((less_011e ? (quantized_5b51 < choice_a248) : (choice_a248 < quantized_5b51)) ? quantized_5b51 : choice_a248) : correction_q;
         corrections_word <= corrections[pad];
     end
 
@@ -237,7 +237,7 @@ module hapticore_loop_controller (
             silent <= next_silent;
             ticks <= ticks | tick;
             silence_fault <= (silence_fault & not_clear_faults) | (next_silent == 7'd100);
-            known <= bit_6975 ? 4'd0 : joined_b4cc;
+            known <= bit_6975 ? 4'd0 : joined_cd0f;
             curve_words <= sum_4cc0[6:0];
             if (start) begin
                 task_q <= 4'd1;
@@ -253,32 +253,32 @@ module hapticore_loop_controller (
                 force_fault <= bit_cbc2;
                 done <= 1'd0;
             end else begin
-                sqrt_start <= bit_a4ac;
-                root <= choice_0867;
+                sqrt_start <= bit_293d;
+                root <= choice_3d91;
                 curve_drive <=
-                    (bit_f2bf & task_is_curve) ? {points_word, 2'd0}
-                    : bit_a4ac ? (sum_ca3b[21] ? 20'd0 : (|sum_ca3b[20]) ? {20{1'b1}} : sum_ca3b[19:0])
+                    (bit_5de2 & task_is_curve) ? {points_word, 2'd0}
+                    : bit_293d ? (sum_ca3b[21] ? 20'd0 : (|sum_ca3b[20]) ? {20{1'b1}} : sum_ca3b[19:0])
                     : curve_drive;
                 pad_word <= bit_d571 ? pads_word : 23'd0;
                 sensor_fault <= bit_9e74 | (task_is_combine & (choice_2c28[3:0] == 4'd8));
                 force_fault <= bit_cbc2 | (task_is_combine & (not_invalid & (force_cap < measured)));
                 void_q <= bit_24ce;
                 done <= write_pads;
-                if (bit_f2bf & task_is_correct) begin
+                if (bit_5de2 & task_is_correct) begin
                     correction_q <=
                         (sum_5897[29:28] == {2{sum_5897[29]}}) ? sum_5897[28:0] : {sum_5897[29], {28{~sum_5897[29]}}};
                 end
-                if (bit_f2bf & task_is_error) begin
+                if (bit_5de2 & task_is_error) begin
                     proportional_q <=
                         (rounded_2[24:20] == {5{rounded_2[24]}}) ? rounded_2[20:0] : {rounded_2[24], {20{~rounded_2[24]}}};
                 end
-                if (bit_f2bf & task_is_force_root) begin
-                    error <= {1'd0, choice_0867} - {1'd0, quantized_12d7};
+                if (bit_5de2 & task_is_force_root) begin
+                    error <= {1'd0, choice_3d91} - {1'd0, quantized_12d7};
                 end
-                if (bit_f2bf) begin
+                if (bit_5de2) begin
                     task_q <=
-                        task_is_combine ? 4'd13
-                        : task_is_correct ? 4'd12
+                        task_is_combine ? 4'd14
+                        : task_is_correct ? 4'd13
                         : task_is_error ? 4'd11
                         : task_is_force_root ? 4'd10
                         : task_is_interpolate ? 4'd9

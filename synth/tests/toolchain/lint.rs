@@ -16,7 +16,7 @@ use std::fs;
 use std::path::Path;
 use std::sync::Mutex;
 
-const WAVES: [&str; 4] = ["dc", "square", "square:10", "sine:125000"];
+const WAVES: [&str; 4] = ["dc", "square:1", "square:10", "sine:125000"];
 const CONVERTERS: [&str; 5] = ["pulses", "ad5664", "ad5664r", "ad5668", "parallel"];
 const PROFILES: [&str; 4] = ["small", "standard", "fine", "fast"];
 

@@ -252,7 +252,7 @@ fn force_error(folder: &Path, (scene, text): (&str, &str), profile: &str) -> f64
     let parsed: toml::Table = text.parse().expect("a bundled scene");
     let first = parsed.get("case").filter(|_| parsed.contains_key("control"));
     if let Some(name) = first.and_then(|cases| cases[0]["name"].as_str()) {
-        args.extend(["--case", name]);
+        args.extend(["--case", name, "--set", "control.force=\"eq8\""]);
     }
     let summary: Value = serde_json::from_slice(&finish(folder, &args).stdout).unwrap();
     let errors = summary["errors"].as_array().expect("errors");

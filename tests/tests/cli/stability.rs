@@ -14,6 +14,8 @@ fn fig9(integral_v: &str) -> Vec<String> {
         "control.law=integral".to_string(),
         "control.proportional_v=64".into(),
         format!("control.integral_v={integral_v}"),
+        "control.force=\"eq8\"".into(),
+        "supply=false".into(),
         "criterion=[]".into(),
     ];
     let set = set.into_iter().flat_map(|set| ["--set".to_string(), set]);

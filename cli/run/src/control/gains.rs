@@ -71,7 +71,7 @@ impl Gains {
 }
 
 /// The largest force that pads or walls ask for, as far as the rail gives it, N.
-pub(super) fn largest_n(plan: &ControlPlan, plant: &Plant, steady: &[[f64; 2]]) -> f64 {
+fn largest_n(plan: &ControlPlan, plant: &Plant, steady: &[[f64; 2]]) -> f64 {
     let targets_n = plant.largest_targets_n().into_iter();
     let asked_n = targets_n.chain(plan.wall.as_ref().map(|wall| wall.force_n)).fold(0.0, f64::max);
     let asked_n = if asked_n > 0.0 { asked_n } else { USUAL_N };

@@ -8,7 +8,7 @@ use hapticore_scene::{
     ControlLaw, ControlPlan, DriveCurve, ForceEstimate, Plant, WallPlan, WallRule,
 };
 
-use super::gains::{Gains, largest_n};
+use super::gains::Gains;
 use crate::case::Case;
 
 /// The trim's largest step: below an eighth of what a pad that follows a frame late bears at full scale.
@@ -120,7 +120,7 @@ pub(super) fn of_gains(
         Law::Inverse => (part(gains.proportional_v), trim_step(plan.trim_s, root, frame_s)),
         _ => (part(gains.proportional_v), plan.filter),
     };
-    let share = pad_share(plan, plant, steady);
+    let share = pad_share(plan, steady);
     let full_drive = adc * adc / profile.square_gain() / (share * share);
     let most = control.gain.real(control.gain.max_code() as i64);
     ensure!(
@@ -200,11 +200,12 @@ fn trim_step(trim_s: f64, root_full_scale: f64, frame_s: f64) -> f64 {
     if trim_s > 0.0 { (root_full_scale * frame_s / trim_s).min(MOST_TRIM_STEP) } else { 0.0 }
 }
 
-/// The voltage at the pad by that of its source, where the case's largest force is held.
-fn pad_share(plan: &ControlPlan, plant: &Plant, steady: &[[f64; 2]]) -> f64 {
+/// The voltage at the pad by that of its source, where half of the rail's force is held: whatever the targets are, so that
+/// a recording of other targets has the same tuning.
+fn pad_share(plan: &ControlPlan, steady: &[[f64; 2]]) -> f64 {
     let step_v = plan.rail_v / (MEASURED - 1) as f64;
-    let held = steady.partition_point(|[_, force]| *force < largest_n(plan, plant, steady));
-    let held = held.clamp(1, MEASURED - 1);
+    let half_n = 0.5 * steady.last().map_or(0.0, |[_, force]| *force);
+    let held = steady.partition_point(|[_, force]| *force < half_n).clamp(1, MEASURED - 1);
     step_v * held as f64 / steady[held][0]
 }
 
