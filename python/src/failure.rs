@@ -17,6 +17,7 @@ use hapticore_contract::profile::{Profile, ProfileError};
 use hapticore_host::LoadProfileError;
 use hapticore_run::engine::Fidelity;
 use hapticore_run::inputs;
+use hapticore_run::inputs::NoProfile;
 use hapticore_run::interrupt::Interrupted;
 use hapticore_scene::{Place, Scene, SceneError};
 use pyo3::PyErr;
@@ -113,7 +114,9 @@ pub fn exception(error: anyhow::Error) -> PyErr {
     if cause::<NoScene>(&error).is_some() {
         return exceptions::SceneError::new_err((message, "", "", None::<usize>));
     }
-    if cause::<ProfileError>(&error).is_some() || cause::<LoadProfileError>(&error).is_some() {
+    let of_profile =
+        cause::<ProfileError>(&error).is_some() || cause::<NoProfile>(&error).is_some();
+    if of_profile || cause::<LoadProfileError>(&error).is_some() {
         return exceptions::ProfileError::new_err(message);
     }
     exceptions::Error::new_err(message)

@@ -54,7 +54,7 @@ def words(settings: dict[str, Any]) -> list[str]:
 
 def of_results(summary: dict[str, Any]) -> dict[str, Any]:
     """A summary without what tells one run or build from another."""
-    others = ("wall_seconds", "command", "commit")
+    others = ("wall_seconds", "command", "commit", "date")
     kept = {key: value for key, value in summary.items() if key not in others}
     for effect in kept.get("effects", []):
         effect["seconds"] = 0

@@ -30,18 +30,26 @@ fn scene_file(name: &str) -> Result<String> {
     Err(anyhow!("expected a file or a scene among {known}, got \"{name}\"{near}"))
 }
 
+/// A name of no profile.
+#[derive(Debug, thiserror::Error)]
+#[error("{message}{near}")]
+pub struct NoProfile {
+    message: String,
+    near: String,
+}
+
 /// The profile of a bundled name or a file.
 ///
 /// # Errors
 /// No such profile, or one that no core can have; the message names file, line or key.
 pub fn profile(name: &str) -> Result<Profile> {
-    let profile = load(name).map_err(|error| {
-        let near = match looks_like_a_file(name) {
-            true => String::new(),
-            false => did_you_mean(name, BUNDLED.map(|(name, _)| name)),
-        };
-        anyhow!("{:#}{near}", anyhow::Error::from(error))
-    })?;
+    let profile = match load(name) {
+        Err(error) if !looks_like_a_file(name) => {
+            let near = did_you_mean(name, BUNDLED.map(|(name, _)| name));
+            return Err(NoProfile { message: error.to_string(), near }.into());
+        }
+        loaded => loaded?,
+    };
     hapticore_model::check(&profile).with_context(|| name.to_string())?;
     Ok(profile)
 }
