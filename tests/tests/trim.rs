@@ -162,7 +162,10 @@ fn settled(rows: &[Row], target_n: f64) -> [f64; 2] {
         after > before * (1.0 + PULL_IN)
     });
     let last = |time_s: Option<f64>| time_s.unwrap_or(0.0);
-    [last(off.map(|row| row.time_s).next_back()), last(rises.map(|pair| pair[1].time_s).last())]
+    [
+        last(off.map(|row| row.time_s).next_back()),
+        last(rises.map(|pair| pair[1].time_s).next_back()),
+    ]
 }
 
 #[test]
