@@ -4,7 +4,7 @@
 
 use super::axis::Axis;
 use super::figure::Figure;
-use super::general::{self, PANELS, Quantity};
+use super::over_time::{self, PANELS, Quantity};
 use super::paint::Paint;
 use super::plot::Plot;
 use super::select;
@@ -51,7 +51,7 @@ fn targets(record: &Record, further: &str) -> Option<Figure> {
     let pads: Vec<_> = select::pads(record).into_iter().filter(|pad| has_target(*pad)).collect();
     let plot = |record: &Record| {
         let of = |pad: usize, value: fn(&(Driven, Truth)) -> f64| {
-            general::points(record, pad, |row| brakes(row).as_ref().map_or(f64::NAN, value))
+            over_time::points(record, pad, |row| brakes(row).as_ref().map_or(f64::NAN, value))
         };
         let force = |pad: &usize| {
             let points = of(*pad, |(_, truth)| truth.quantities.force_n);
@@ -65,11 +65,12 @@ fn targets(record: &Record, further: &str) -> Option<Figure> {
         let mut series: Vec<_> = pads.iter().map(force).chain(pads.iter().map(target)).collect();
         let y = Axis::with_zero("F (N)", series.iter().flat_map(|s| s.points.iter().map(|p| p.1)));
         series.push(Series::line("target", Paint::INK.dashed(), Vec::new()));
-        Plot::new("True force and target over time", general::time_axis(record), y, series)
+        Plot::new("True force and target over time", over_time::time_axis(record), y, series)
     };
     let note = "The force is the true one of the part that brakes; the target is that of its drive."
         .to_string() + further;
-    (!pads.is_empty()).then(|| general::of_cases(record, "True force and its target", &note, plot))
+    (!pads.is_empty())
+        .then(|| over_time::of_cases(record, "True force and its target", &note, plot))
 }
 
 /// How deep each pad that meets a wall lies in it.
@@ -81,7 +82,7 @@ fn depths(record: &Record, further: &str) -> Option<Figure> {
     let pads: Vec<_> = select::pads(record).into_iter().filter(|pad| meets(*pad)).collect();
     let plot = |record: &Record| {
         let line = |pad: &usize| {
-            let points = general::points(record, *pad, depth);
+            let points = over_time::points(record, *pad, depth);
             let of_last = |row: &Row| row.truth.is_some_and(|truth| truth.part == last);
             let along_x = record.rows.iter().any(|row| row.pad == *pad && of_last(row));
             let along = if along_x { "along x" } else { "along y" };
@@ -91,17 +92,17 @@ fn depths(record: &Record, further: &str) -> Option<Figure> {
         let series: Vec<_> = pads.iter().map(line).collect();
         let y =
             Axis::with_zero("depth (mm)", series.iter().flat_map(|s| s.points.iter().map(|p| p.1)));
-        Plot::new("Depth in the wall over time", general::time_axis(record), y, series)
+        Plot::new("Depth in the wall over time", over_time::time_axis(record), y, series)
     };
     let note = "How deep a pad's last part lies within the wall; 0 outside. The wall along y is known by the part before the last.".to_string()
         + further;
-    (!pads.is_empty()).then(|| general::of_cases(record, "Depth in the wall", &note, plot))
+    (!pads.is_empty()).then(|| over_time::of_cases(record, "Depth in the wall", &note, plot))
 }
 
 /// Where walls begin, as parts of pads meet them, in a plot of the place along x or along y. One wall for all pads, but for an
 /// arena, where each has its own.
 pub fn surfaces(record: &Record, title: &str) -> Vec<Series> {
-    let of = |column: &str| -> Quantity { general::quantity_of_column(column) };
+    let of = |column: &str| -> Quantity { over_time::quantity_of_column(column) };
     let (along_x, along_y) = (title == of("x_mm").0, title == of("y_mm").0);
     let last = last_part(record);
     let surface = |row: &Row| {
@@ -117,7 +118,7 @@ pub fn surfaces(record: &Record, title: &str) -> Vec<Series> {
     let most = if record.rows.iter().any(|row| row.game.is_some()) { usize::MAX } else { 1 };
     let line = |(n, pad): (usize, usize)| {
         let name = if n == 0 { "wall's surface" } else { "" };
-        let points = general::points(record, pad, |row| surface(row).unwrap_or(f64::NAN));
+        let points = over_time::points(record, pad, |row| surface(row).unwrap_or(f64::NAN));
         Series::line(name, Paint::LIMIT, points).mark(Mark::Line(3))
     };
     walled.take(most).enumerate().map(line).collect()

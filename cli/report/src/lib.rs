@@ -40,6 +40,7 @@ mod hockey;
 mod laws;
 pub mod map;
 pub mod number;
+mod over_time;
 pub mod page;
 pub mod paint;
 pub mod plot;

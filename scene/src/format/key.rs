@@ -4,7 +4,6 @@
 
 use super::kind::{Kind, Otherwise};
 use super::limits::Limits;
-use super::read::Read;
 use super::table::Result;
 use super::tree::Table;
 
@@ -46,6 +45,17 @@ impl KeyInfo {
     /// The words that it takes; none where it takes no words.
     pub fn words(&self) -> Vec<&'static str> {
         if let Kind::Words(words) = self.kind { words() } else { Vec::new() }
+    }
+}
+
+/// What can be read from a key.
+pub(crate) trait Read: Sized {
+    /// The value, where the table has the key.
+    fn read(table: &Table, key: &KeyInfo) -> Result<Option<Self>>;
+
+    /// What is read where the table does not have it.
+    fn absent(_: Otherwise) -> Option<Self> {
+        None
     }
 }
 

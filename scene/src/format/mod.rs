@@ -14,9 +14,9 @@ mod tree;
 
 pub(crate) use document::parse;
 pub use key::KeyInfo;
-pub(crate) use key::{Key, keys};
+pub(crate) use key::{Key, Read, keys};
 pub use kind::{Kind, Otherwise};
 pub use limits::Limits;
 pub(crate) use overrides::{apply, parse_value};
-pub(crate) use read::{Read, Word};
+pub(crate) use read::Word;
 pub(crate) use tree::{Node, Table, Value};

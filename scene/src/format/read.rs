@@ -1,22 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! How values of each type are read from a key, and how keys of the type are declared.
 
-use super::key::{Key, KeyInfo};
+use super::key::{Key, KeyInfo, Read};
 use super::kind::{Kind, Otherwise};
 use super::limits::Limits;
 use super::table::Result;
 use super::tree::Table;
-
-/// What can be read from a key.
-pub(crate) trait Read: Sized {
-    /// The value, where the table has the key.
-    fn read(table: &Table, key: &KeyInfo) -> Result<Option<Self>>;
-
-    /// What is read where the table does not have it.
-    fn absent(_: Otherwise) -> Option<Self> {
-        None
-    }
-}
 
 /// What some words stand for.
 pub(crate) trait Word: Copy + 'static {
