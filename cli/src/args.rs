@@ -387,8 +387,8 @@ pub struct HdlArgs {
     /// The clock of a top of your own, without --board: words that cease are zero after 100 ms of it
     #[arg(long, value_name = "HERTZ", default_value_t = 25_000_000, requires = "dac", conflicts_with = "board", value_parser = clap::value_parser!(u64).range(1_000_000..=200_000_000))]
     pub clock_hz: u64,
-    /// Its wave: a square turns with every SLOTS slots of a pad, without a number as often as 4.2 ms and more take, a sine
-    /// has a period of CLOCKS
+    /// Its wave: a square turns with every SLOTS slots of a pad, by default with as many as take 4.2 ms; a sine has a
+    /// period of CLOCKS
     #[arg(
         long,
         value_name = "dc|square[:SLOTS]|sine:CLOCKS",

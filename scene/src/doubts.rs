@@ -12,6 +12,9 @@ use crate::wave::{HapticWave, LEAST_TAUS};
 /// Levels of `[gap]` that follow a drive immediately.
 const AT_REST: [&str; 2] = ["static", "hysteresis"];
 
+/// Time constant of a supply beyond which a loop's frames, a millisecond or less, cannot do without it, s.
+const SLOW_S: f64 = 5e-4;
+
 /// The doubts about a scene, a sentence each, which begins with the key that is their cause.
 pub(crate) fn of_scene(
     root: &Table,
@@ -23,6 +26,7 @@ pub(crate) fn of_scene(
     let Some(control) = control else { return Ok(turns.into_iter().collect()) };
     let all = [
         turns,
+        slow_supply(device),
         gap_at_rest(effects),
         no_friction(effects),
         open_law(control),
@@ -41,6 +45,17 @@ fn turns_too_often(device: &Device) -> Option<String> {
             "carrier.haptic_turn_s = {turn_s}: behind [supply] a pad is recharged with a time constant of {:.0} µs, so that \
              turns take much of its force; take {least_s:.4} at least, or leave it out",
             1e6 * device.recharge_s
+        )
+    })
+}
+
+/// A supply that takes longer than a loop's frames: its level sets the voltage at the pad at once.
+fn slow_supply(device: &Device) -> Option<String> {
+    (device.recharge_s > SLOW_S).then(|| {
+        format!(
+            "supply.limiting_kohm with [control]: a pad is recharged with a time constant of {:.1} ms, but simulated without it, \
+             so that forces of a loop come later than they seem; lower it",
+            1e3 * device.recharge_s
         )
     })
 }

@@ -7,7 +7,7 @@
 use std::path::Path;
 
 use anyhow::{Context, Result, ensure};
-use hapticore_contract::control::{Control, Tuning, Walls};
+use hapticore_contract::control::{Control, Law, Tuning, Walls};
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::format::Format;
 use hapticore_host::text::read;
@@ -28,7 +28,7 @@ pub struct TuningFile {
     pub full_drive: f64,
     /// Gain of the error: drive per N (proportional) or per √N of the largest target (integral).
     pub proportional: f64,
-    /// Filter of the proportional law, or integral gain per frame.
+    /// Filter of the proportional law, integral gain per frame, or step of the inverse law's trim, 0 for none.
     pub correction: f64,
     /// Largest drive.
     pub rail: f64,
@@ -174,6 +174,14 @@ impl TuningFile {
         holds("full_drive", set(Setting::FullDrive), self.full_drive)?;
         holds("proportional", set(Setting::Proportional), self.proportional)?;
         holds("correction", set(Setting::Correction), self.correction)?;
+        // Tunings of 0.1.0 have 1 here, which no inverse law read.
+        ensure!(
+            control.law != Law::Inverse || self.correction <= Control::MOST_TRIM_STEP,
+            "correction: expected at most {} with law = \"inverse\", whose trim it is since version 0.1.0, got {}; 0 is the \
+             law without a trim",
+            Control::MOST_TRIM_STEP,
+            self.correction
+        );
         holds("rail", set(Setting::Rail), self.rail)?;
         holds("slew", set(Setting::Slew), self.slew)?;
         // A cap beyond the largest force that the word holds is one at that force.
@@ -214,7 +222,6 @@ fn holds(key: &str, format: Format, number: f64) -> Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use hapticore_contract::control::Law;
 
     fn profile() -> Profile {
         let profile = Profile::bundled("fast").expect("bundled");
@@ -240,6 +247,16 @@ mod tests {
         let text = file.text("a test").expect("TOML");
         assert_eq!(toml::from_str::<TuningFile>(&text).expect("TOML"), file, "{text}");
         assert_eq!(file.tuning().force_cap, f64::INFINITY);
+    }
+
+    #[test]
+    fn a_tuning_from_before_the_trim_is_refused_with_the_cure() {
+        let old = message(|file| file.correction = 1.0);
+        assert!(
+            old.starts_with("correction: expected at most 0.25") && old.contains("0 is the law"),
+            "{old}"
+        );
+        assert_eq!(message(|file| file.correction = 0.25), "");
     }
 
     #[test]

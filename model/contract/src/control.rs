@@ -34,8 +34,8 @@ pub enum Law {
     Proportional,
     /// The curve, a multiple and an integral of the error of the force's root.
     Integral,
-    /// The voltage that gives the target at the capacitance just measured, limited by the curve, and trimmed to
-    /// the force that is read.
+    /// The voltage that gives the target at the capacitance just measured, limited by the curve and trimmed to the
+    /// force that is read.
     Inverse,
 }
 
@@ -90,6 +90,10 @@ impl Control {
     pub const TRIM_ERROR_BITS: u8 = 6;
     /// The inverse law's trim is ±2^-[`Control::TRIM_BITS`] of the drive at most.
     pub const TRIM_BITS: u8 = 1;
+
+    /// The largest step of the trim for each root and frame: a quarter of that at which a pad whose force follows a frame late
+    /// swings at full scale (K_i·√F/√F_full below 1, docs/physics.md §6).
+    pub const MOST_TRIM_STEP: f64 = 0.25;
 
     /// Fractional bits by which a target is moved down to be below one; even, as its root is then
     /// moved by half of it.

@@ -44,6 +44,20 @@ fn gains_of_zero_and_absent_friction_are_doubts() {
     );
 }
 
+#[test]
+fn a_supply_that_is_slow_for_its_wave_or_for_a_loop_is_a_doubt() {
+    let square = "[supply]\nlimiting_kohm = 300\n[carrier]\nhaptic_wave = \"square\"\n";
+    assert!(doubts(&format!("{CONTROLLED}[gap]\n{square}")).is_empty());
+    let often = doubts(&format!("{CONTROLLED}[gap]\n{square}haptic_turn_s = 0.004\n"));
+    assert!(often.len() == 1 && often[0].starts_with("carrier.haptic_turn_s"), "{often:?}");
+    let slow = square.replace("300", "3000");
+    let of_loop = doubts(&format!("{CONTROLLED}[gap]\n{slow}"));
+    assert!(of_loop.len() == 1 && of_loop[0].starts_with("supply.limiting_kohm"), "{of_loop:?}");
+    // Without a loop nothing waits for the pad.
+    let free = "duration_s = 1\n[[pad]]\nposition_mm = [0, 0]\n[gap]\n";
+    assert!(doubts(&format!("{free}{slow}")).is_empty());
+}
+
 /// Truths of a pad under 50 g at 300 V.
 fn at_300_v(tables: &str) -> Truth {
     let text = format!("[[pad]]\nposition_mm = [0, 0]\nload_g = 50\nhaptic_v_rms = 300\n{tables}");

@@ -496,5 +496,15 @@ mod tests {
         assert!((margins.crossover_hz.unwrap() / crossover - 1.0).abs() < 1e-3);
         let phase = 90.0 - 180.0 * crossover * 1e-3;
         assert!((margins.phase_margin_deg.unwrap() - phase).abs() < 0.1, "{margins:?}");
+        // A trim alone is the same loop, of the root of the force.
+        let law = ControlLaw::Inverse;
+        let trimmed = OpenLoop {
+            law,
+            gains: [0.0; 2],
+            response: vec![[0.0; 2], [0.0, 1.0]],
+            trim: 0.5,
+            ..of
+        };
+        assert_eq!(trimmed.margins(0.3), margins);
     }
 }

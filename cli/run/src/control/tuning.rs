@@ -11,9 +11,6 @@ use hapticore_scene::{
 use super::gains::Gains;
 use crate::case::Case;
 
-/// The trim's largest step: below an eighth of what a pad that follows a frame late bears at full scale.
-const MOST_TRIM_STEP: f64 = 0.25;
-
 /// Voltages at which the steady curve is measured.
 const MEASURED: usize = 401;
 
@@ -187,17 +184,26 @@ fn nominal_load_g(plan: &ControlPlan, plant: &Plant) -> f64 {
     plan.nominal_load_g.unwrap_or_else(|| plant.mean_load_g())
 }
 
-/// Voltages of the source, from zero to the rail at the pad, and the steady forces that they give under the nominal load.
+/// Voltages of the source, from zero to the rail, and the steady forces that they give under the nominal load; those of
+/// even steps of the voltage at the pad.
 fn steady(plan: &ControlPlan, plant: &Plant) -> Vec<[f64; 2]> {
     let step_v = plan.rail_v / (MEASURED - 1) as f64;
     let volts: Vec<f64> = (0..MEASURED).map(|n| step_v * n as f64).collect();
     let points = plant.friction_calibration(&[nominal_load_g(plan, plant)], &volts);
-    points.into_iter().map(|point| [point.source_v_rms, point.force_n]).collect()
+    let steady: Vec<_> =
+        points.into_iter().map(|point| [point.source_v_rms, point.force_n]).collect();
+    let within = steady.partition_point(|[volt, _]| *volt <= plan.rail_v * (1.0 + 1e-9));
+    // Two at least: a share follows from the second.
+    steady.into_iter().take(within.max(2)).collect()
 }
 
-/// The trim's step for each root and frame: K_i·√F/√F_full of an error of √F/√F_full is frame/time constant at 1 N.
+/// K_i of the trim: with F = 1 N its error decays with the time constant.
 fn trim_step(trim_s: f64, root_full_scale: f64, frame_s: f64) -> f64 {
-    if trim_s > 0.0 { (root_full_scale * frame_s / trim_s).min(MOST_TRIM_STEP) } else { 0.0 }
+    if trim_s > 0.0 {
+        (root_full_scale * frame_s / trim_s).min(Control::MOST_TRIM_STEP)
+    } else {
+        0.0
+    }
 }
 
 /// The voltage at the pad by that of its source, where half of the rail's force is held: whatever the targets are, so that
@@ -205,7 +211,7 @@ fn trim_step(trim_s: f64, root_full_scale: f64, frame_s: f64) -> f64 {
 fn pad_share(plan: &ControlPlan, steady: &[[f64; 2]]) -> f64 {
     let step_v = plan.rail_v / (MEASURED - 1) as f64;
     let half_n = 0.5 * steady.last().map_or(0.0, |[_, force]| *force);
-    let held = steady.partition_point(|[_, force]| *force < half_n).clamp(1, MEASURED - 1);
+    let held = steady.partition_point(|[_, force]| *force < half_n).clamp(1, steady.len() - 1);
     step_v * held as f64 / steady[held][0]
 }
 
