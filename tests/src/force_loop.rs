@@ -116,8 +116,8 @@ impl Closed {
     /// # Panics
     /// As [`Closed::new`].
     pub fn in_a_corner(profile: &Profile) -> Self {
-        let along_x = "x_mm = [[0, 0.3], [0.006, -0.6], [0.012, -0.6], [0.016, 0.5]]";
-        let along_y = "y_mm = [[0, 0.5], [0.008, -0.9], [0.016, -0.9], [0.02, 0.5]]";
+        let along_x = "x_mm = [[0, 0.3], [0.005, -0.6], [0.015, -0.6], [0.019, 0.5]]";
+        let along_y = "y_mm = [[0, 0.5], [0.005, -0.3], [0.014, -0.9], [0.019, 0.5]]";
         Closed::drawn(profile, "wall-2d", &format!("{along_x}, {along_y}"))
     }
 

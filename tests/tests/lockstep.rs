@@ -495,13 +495,12 @@ fn icarus_runs_drives_as_the_model_does() {
     }
 }
 
-/// The clock after a part's estimate in which `split_pad` reads its pad's place.
-const PLACE_IS_READ: i64 = 1;
+/// The clocks after a part's estimate in which `split_pad` reads its pad's place, x and y.
+const PLACES_ARE_READ: [i64; 2] = [1, 2];
 
 /// A curve, then estimates of pads in turn, as far apart as their drive words take, and anything else at any clock.
 fn estimates(block: &Drives, pads: u64) -> impl FnMut(&[i64]) -> Option<Vec<i64>> + use<> {
     let (formats, apart, pads) = (block.inputs(), block.latency() as i64 + 5, pads as i64);
-    let of_quadrants = block.has_walls_along_y();
     let words = block.words_of_curve() as i64;
     let (mut rng, mut clock) = (fastrand::Rng::with_seed(9), -words);
     let mut estimate = drives::Inputs::of(0).estimate;
@@ -529,14 +528,8 @@ fn estimates(block: &Drives, pads: u64) -> impl FnMut(&[i64]) -> Option<Vec<i64>
         if clock < 0 {
             (inputs.tuning.curve_write, inputs.tuning.curve_address) = (1, clock + words);
         }
-        // A memory that does not care gives anything for a place that is written in the clock in which it is read; that of
-        // quadrants, whose second place may be, gives the one before.
-        if of_quadrants {
-            let last = clock.max(0) / apart % pads;
-            (inputs.placed, inputs.placed_pad) = (1, (last - rng.i64(0..2)).max(0));
-        } else {
-            inputs.placed &= i64::from(clock % apart != PLACE_IS_READ);
-        }
+        // A memory that does not care gives anything for a place that is written in the clock in which it is read.
+        inputs.placed &= i64::from(!PLACES_ARE_READ.contains(&(clock % apart)));
         if clock >= 0 && clock % apart == 0 {
             (estimate, estimate.prompt) = (inputs.estimate, 1);
             estimate.prompt_pad = clock / apart % pads;

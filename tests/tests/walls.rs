@@ -110,3 +110,28 @@ fn a_wall_in_the_core_is_felt_as_the_rule_is() {
     assert!(a.release_ms <= 25.0 && a.release_p95_ms <= 90.0 && a.vanished_ms <= 1.0, "{a:?}");
     assert!(a.peak_n > 0.7, "and it holds: {a:?}");
 }
+
+/// A hand that slides along the surface while it presses in feels a fifth of the wall's force as drag, or less; where it
+/// stands still before, the wall holds it. What a brake cannot do is in docs/physics.md §6: it sinks in to where it aims.
+#[test]
+fn a_hand_that_slides_along_the_surface_is_not_dragged() {
+    let hands = match std::env::var("HANDS") {
+        Ok(hands) => hands.parse().expect("HANDS: a number"),
+        Err(_) if cfg!(optimised) => 3,
+        Err(_) => 1,
+    };
+    for (pad, noise_ppm, play_mm) in
+        [(Pad::Strips, 18.0, 0.2), (Pad::Halves, 18.0, 0.2), (Pad::Strips, 60.0, 0.4)]
+    {
+        let core = InCore { pad, profile: "fast", n_per_mm: 0.5, play_mm, noise_ppm };
+        for mm_per_s in [10.0, 50.0, 150.0] {
+            for (seed, slid) in core.sliding(0..hands, mm_per_s).into_iter().enumerate() {
+                let name =
+                    format!("{pad:?}, {noise_ppm} ppm, {mm_per_s} mm/s, hand {seed}: {slid:?}");
+                println!("{name}");
+                assert!((slid.held - 1.0).abs() <= 0.1, "{name}");
+                assert!(slid.wall_n > 0.2 && slid.drag_n <= 0.2 * slid.wall_n, "{name}");
+            }
+        }
+    }
+}

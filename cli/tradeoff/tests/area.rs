@@ -65,7 +65,7 @@ fn check(rows: &[Row], family: Family, what: &str, of: fn(&Cost, Family) -> f64,
     assert!(median <= most[0] && high <= most[1], "{family:?}, {what}: {median} %, {high} %");
 }
 
-/// Loops of `synth/reports/loops.json`: those of an ECP5 were fitted to, by one number.
+/// Loops of `synth/reports/loops.json`, to which one number of each family was fitted.
 #[test]
 fn force_loops_are_estimated_too() {
     let report = include_str!("../../../synth/reports/loops.json");

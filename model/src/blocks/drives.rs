@@ -203,11 +203,6 @@ impl Drives {
         self.controller.hurry();
     }
 
-    /// Whether pads have walls along both axes.
-    pub fn has_walls_along_y(&self) -> bool {
-        self.split_pad.as_ref().is_some_and(SplitPad::has_quadrants)
-    }
-
     /// Whether this is the number of a pad's last part.
     pub fn is_last(&self, pad: usize) -> bool {
         let parts = self.split_pad.as_ref().map_or(1, SplitPad::parts);
@@ -272,8 +267,8 @@ impl Drives {
         }
     }
 
-    /// A frame's word that is a valid place: whether it is, of which number, and the place. Of pads with
-    /// walls along both axes the last part's places count, y by the number before it.
+    /// A frame's word that is a valid place of a pad's last part: whether it is, of which number, and the place. That along
+    /// y is known by the number before the part's.
     #[inline(always)]
     pub fn place<V: Interpretation>(
         &self,
@@ -286,15 +281,11 @@ impl Drives {
         let is = |field: Field| frame.index.is(field as u64);
         let valid = frame.valid & !frame.invalid & !frame.lifted;
         let place = frame.frame.as_code(self.position);
-        match self.split_pad.as_ref().filter(|of| of.has_quadrants()) {
-            None => (valid & is(Field::X), frame.pad, place),
-            Some(of) => {
-                let along_y = is(Field::Y);
-                let placed = valid & (is(Field::X) | along_y);
-                let before = (frame.pad - int(1)).resize(self.pad, Wrap);
-                (placed & of.is_last(frame.pad), along_y.select(before, frame.pad), place)
-            }
-        }
+        let of = self.split_pad.as_ref().expect("there are walls");
+        let along_y = is(Field::Y);
+        let placed = valid & (is(Field::X) | along_y) & of.is_last(frame.pad);
+        let before = (frame.pad - int(1)).resize(self.pad, Wrap);
+        (placed, along_y.select(before, frame.pad), place)
     }
 }
 

@@ -46,6 +46,10 @@ block! {
         trusted: BIT,
         /// Place less the wall's surface, mm.
         depth: depth(block.wall.inputs().x),
+        /// Place along the wall's surface, mm.
+        along: block.wall.inputs().along,
+        /// The user leaves the pad's other wall.
+        other_free: block.wall.inputs().other_free,
         /// The wall is right of its surface.
         mirrored: BIT,
         /// The haptic voltage was zero in the frame.
@@ -107,6 +111,8 @@ impl SidedWall {
             c_left: current(i.mirrored.select(i.right, i.left)),
             c_right: current(i.mirrored.select(i.left, i.right)),
             x,
+            along: i.along,
+            other_free: i.other_free,
             at_zero: i.at_zero,
             stiffness: i.stiffness,
             most: i.most,

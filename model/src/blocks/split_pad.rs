@@ -7,12 +7,12 @@
 //!                                    tl | bl | br | tr       quadrants, all sense and brake
 //! C = (C_left + C_right)/2,  F likewise;    those of the brake;    or the mean of all quadrants
 //! C_left = (C_tl + C_bl)/2,  C_right = (C_br + C_tr)/2;    C_bottom = (C_bl + C_br)/2,  C_top = (C_tl + C_tr)/2
-//! depth = x − surface, and likewise along y
+//! of the wall along x: depth = x − surface, along = y;   of that along y: depth = y − surface, along = x
 //! ```
 //!
 //! ```text
 //! estimate ─[left, right]─ C_left, C_right ─┐
-//! frame ─[x of every pad]─(− surface)───────┴─ sided wall ─ target  (docs/physics.md §6)
+//! frame ─[x, y of every pad]─(− surface)────┴─ sided wall ─ target  (docs/physics.md §6)
 //! drive ─[zero, of every pad]───────────────┘
 //! ```
 //!
@@ -25,8 +25,8 @@
 //! is written, and with every `clear` a pad needs a new place. Where the estimate of a sensing part is invalid, or the
 //! part does not touch, the wall releases, the safe side. Quadrants have a wall along either axis, one after the other.
 //! The wall along y is known by the number of the pad's third part; its bottom is the left of that along x, and the pad
-//! takes the larger force. Latency: three clocks and the wall's for each axis, from the last part's estimate to `done`;
-//! four where words of block RAMs have registers.
+//! takes the larger force; where the user leaves one, the other brakes only a pad that goes into it. Latency: four clocks
+//! and the wall's for each axis, from the last part's estimate to `done`.
 
 use super::marks;
 use super::sided_wall::{self, SidedWall};
@@ -67,8 +67,6 @@ block! {
         position: Format,
         capacitance: Format,
         force: Format,
-        /// Words that were read have a register before they are subtracted.
-        registers_words: bool,
     }
     submodules {
         /// The walls.
@@ -97,9 +95,9 @@ block! {
         lifted: BIT,
         /// A frame has a valid place.
         placed: BIT,
-        /// Number of its part, or of that by which the pad's wall along y is known.
+        /// Number of its part for x, that before it for y.
         placed_pad: block.pad(),
-        /// Place along the wall's axis, mm.
+        /// Place along x, or along y, mm.
         place: block.position,
         /// A drive word is given.
         driven: BIT,
@@ -141,6 +139,8 @@ block! {
         /// What the wall along x has given.
         target: block.of_quadrants(block.force),
         free: block.of_quadrants(BIT),
+        /// Pads whose user leaves the wall along y, as of their last frame.
+        free_pads: block.of_quadrants(marks::format(block.pads)),
         /// The estimate of a sensing part is invalid.
         invalid: BIT,
         /// That of what brakes is.
@@ -153,13 +153,14 @@ block! {
         measured: block.force,
         /// Of the left half.
         left_measured: block.force.where_present(block.parts == 2),
-        /// The pad's place and wall are asked for, then there.
+        /// The pad's place and wall are asked for, then there, then its place along the wall.
         asked: BIT,
         found: BIT,
-        /// Their words, where they have a register.
-        kept: BIT.where_present(block.registers_words),
-        place_word: block.places.format.where_present(block.registers_words),
-        surface_word: block.surfaces.format.where_present(block.registers_words),
+        crossed: BIT,
+        /// Their words. For the wall along y the two places, which have been read, change roles.
+        place_word: block.places.format,
+        surface_word: block.surfaces.format,
+        along_word: block.places.format,
         start: BIT,
         /// Pads with places.
         placed_pads: marks::format(block.pads),
@@ -197,14 +198,9 @@ impl SplitPad {
             position: f.position,
             capacitance: f.capacitance,
             force: f.force,
-            registers_words: profile.registers_block_rams(),
             wall,
-            places: match rule.parts == profile::Wall::QUADRANTS.parts {
-                // The second is read when that of a frame may be written: what is read then is the word before.
-                true => Memory::new("places", words, place).in_block(),
-                false => memory("places", place).in_block(),
-            },
-            // Written at any time, likewise.
+            places: memory("places", place).in_block(),
+            // Written at any time: what is read then is the word before.
             surfaces: Memory::new("surfaces", words, surface).in_block(),
         })
     }
@@ -238,7 +234,7 @@ impl SplitPad {
     /// Clocks from the estimate of a pad's last part to `done`.
     pub fn latency(&self) -> u64 {
         let axes = if self.has_quadrants() { 2 } else { 1 };
-        axes * (3 + u64::from(self.registers_words) + self.wall.latency())
+        axes * (4 + self.wall.latency())
     }
 
     /// Whether a pad is being asked for, or its wall is busy: else, given nothing, a clock changes nothing.
@@ -248,12 +244,11 @@ impl SplitPad {
 
     #[inline(always)]
     fn under_way<V: Interpretation>(&self, r: &Regs<V>) -> Signal<V> {
-        let kept = if self.registers_words { r.kept } else { bit(false) };
-        r.asked | r.found | kept | r.start
+        r.asked | r.found | r.crossed | r.start
     }
 
     /// Whether pads have walls along both axes.
-    pub fn has_quadrants(&self) -> bool {
+    fn has_quadrants(&self) -> bool {
         self.parts == profile::Wall::QUADRANTS.parts
     }
 
@@ -363,33 +358,30 @@ impl SplitPad {
             data: i.place.bits(0, self.position.width),
         };
         let number = self.number(r);
-        self.places.access(&mut within.places, number, write);
+        let place_number = r.found.select(self.before(r.pad), r.pad);
+        self.places.access(&mut within.places, place_number, write);
         let write = Write {
             enable: i.wall.wall_write,
             address: i.wall.wall_pad,
             data: i.wall.wall_right.concat(i.wall.wall_surface.bits(0, self.position.width)),
         };
         self.surfaces.access(&mut within.surfaces, number, write);
-        let of = |word: Signal<V>| word.bits(0, self.position.width).as_code(self.position);
-        let (there, place_word, surface_word) = match self.registers_words {
-            true => (r.kept, r.place_word, r.surface_word),
-            false => (r.found, place, surface),
+        let turned = if self.has_quadrants() { r.along_y } else { bit(false) };
+        let along_word = (r.crossed & !turned).select(place, r.along_word);
+        let next = Registers {
+            place_word: r.found.select(turned.select(r.along_word, place), r.place_word),
+            surface_word: r.found.select(surface, r.surface_word),
+            along_word: (r.found & turned).select(r.place_word, along_word),
+            ..next
         };
-        let next = match self.registers_words {
-            true => Registers {
-                kept: r.found,
-                place_word: r.found.select(place, r.place_word),
-                surface_word: r.found.select(surface, r.surface_word),
-                ..next
-            },
-            false => next,
-        };
+        let surface = r.surface_word.bits(0, self.position.width).as_code(self.position);
         Registers {
             found: r.asked,
-            start: there,
-            placed: there.select(r.met, r.placed),
-            depth: there.select(of(place_word) - of(surface_word), r.depth),
-            mirrored: there.select(surface_word.bits(self.position.width, 1), r.mirrored),
+            crossed: r.found,
+            start: r.crossed,
+            placed: r.crossed.select(r.met, r.placed),
+            depth: r.crossed.select(r.place_word.as_code(self.position) - surface, r.depth),
+            mirrored: r.crossed.select(r.surface_word.bits(self.position.width, 1), r.mirrored),
             rests: r.found.select(marks::is_marked(r.resting_pads, r.pad), r.rests),
             ..self.marked(r, i, number, next)
         }
@@ -409,7 +401,9 @@ impl SplitPad {
         let placed = marks::unless(i.clear, r.placed_pads);
         let walled = marks::unless(i.begins_anew, r.walled_pads);
         let resting = marks::unless(i.clear, r.resting_pads);
-        let met = marks::is_marked(placed, number) & marks::is_marked(walled, number);
+        let has_place =
+            marks::is_marked(placed, r.pad) & marks::is_marked(placed, self.before(r.pad));
+        let met = has_place & marks::is_marked(walled, number);
         let write = (i.placed & !i.clear, i.placed_pad);
         let wall_write = (i.wall.wall_write, i.wall.wall_pad);
         Registers {
@@ -441,7 +435,13 @@ impl SplitPad {
         if !self.has_quadrants() {
             return r.pad;
         }
-        r.along_y.select((r.pad - int(1)).resize(self.pad(), Wrap), r.pad)
+        r.along_y.select(self.before(r.pad), r.pad)
+    }
+
+    /// The number before that of a pad's last part, by which its place along y is known.
+    #[inline(always)]
+    fn before<V: Interpretation>(&self, pad: Signal<V>) -> Signal<V> {
+        (pad - int(1)).resize(self.pad(), Wrap)
     }
 
     /// Capacitances on the left and on the right, or at the bottom and at the top.
@@ -466,6 +466,10 @@ impl SplitPad {
             true => r.along_y.select(zero(i.wall.wall_factory.format), i.wall.wall_factory),
             false => i.wall.wall_factory,
         };
+        let other_free = match self.has_quadrants() {
+            true => r.along_y.select(r.free, marks::is_marked(r.free_pads, r.pad)),
+            false => bit(false),
+        };
         sided_wall::Inputs {
             start: r.start,
             pad: self.number(r),
@@ -474,6 +478,8 @@ impl SplitPad {
             right,
             trusted: r.placed & !r.invalid & !r.lifted,
             depth: r.depth,
+            along: r.along_word.as_code(self.position),
+            other_free,
             mirrored: r.mirrored,
             at_zero: r.rests,
             stiffness: i.wall.wall_stiffness,
@@ -505,7 +511,8 @@ impl Block for SplitPad {
             return outputs;
         }
         let gathered = self.gathered(r, &i);
-        let gathered = if self.has_quadrants() { turned(gathered, &r, walled) } else { gathered };
+        let gathered =
+            if self.has_quadrants() { turned(gathered, &r, walled, i.clear) } else { gathered };
         let next = self.located(state, &i, &r, gathered);
         state.store(self, next);
         outputs
@@ -525,13 +532,20 @@ fn of_both<V: Interpretation>(along: Out<V>, r: &Regs<V>) -> Out<V> {
 
 /// The registers where the wall along x is done: that along y is asked for.
 #[inline(always)]
-fn turned<V: Interpretation>(next: Regs<V>, r: &Regs<V>, walled: sided_wall::Out<V>) -> Regs<V> {
+fn turned<V: Interpretation>(
+    next: Regs<V>,
+    r: &Regs<V>,
+    walled: sided_wall::Out<V>,
+    clear: Signal<V>,
+) -> Regs<V> {
     let turns = walled.done & !r.along_y;
+    let free_pads = marks::unless(clear, r.free_pads);
     Registers {
         asked: next.asked | turns,
         along_y: next.along_y | turns,
         target: turns.select(walled.target, r.target),
         free: turns.select(walled.free, r.free),
+        free_pads: marks::written(free_pads, (walled.done & r.along_y, r.pad), walled.free),
         ..next
     }
 }

@@ -7,7 +7,7 @@
 //! y = clamp((u − off)/σ, ±4);   off, b: learnt in free air
 //! PUSH: S = max(0, S + y + bf·b/σ − ½);  S > h1 or play outwards → FREE
 //! FREE: E = max(0, E − y − ½ − kb·b/σ);  E > h2 or play inwards → PUSH, gain = 0
-//! F = min(k_w·|x|, F_max)·gain                                           (docs/physics.md §6)
+//! F = min(k_w·|x|, F_max)·gain,   gain = 0 where the pad slides along the surface   (docs/physics.md §6)
 //! ```
 //!
 //! That is the rule `sequential`. With `quiet_frames`, as in rule B, the force of a stationary push that reads weaker
@@ -17,7 +17,8 @@
 //! ```text
 //! C_L, C_R ─(−, +)─[divider]─ u ─┐
 //! x ─[follow]─ x̄, v ─[learn]─ off, b, σ ─[test]─ PUSH/FREE ─(k_w·|x|)─(× gain)─[round half even]─ force
-//! [state: 16 words of every pad, 21 where forces fall] ─ loaded first, saved last
+//! x, y ─[motion since a point that follows]─ slides ─────────────────────────────┘
+//! [state: 18 words of every pad, 22 where forces fall; the first has all bits] ─ loaded first, saved last
 //! ```
 //!
 //! | signal | format | unit | overflow |
@@ -29,7 +30,7 @@
 //!
 //! Filters are powers of two, rounded half to even. A frame without current is not valid: the force
 //! is 0, the safe side, for a wall that cannot be felt is better than one that holds. With a part
-//! open (|u| ≥ ½) there is no evidence and play alone decides. One state word per field and pad is
+//! open (|u| ≥ ½) there is no evidence and play alone decides. A state word per field and pad is
 //! kept in a memory; a pad that is lifted, or calibrated anew, is started anew by `restart`.
 //! Latency: 2·words + divider + two products + 12 clocks from `start` to `done`, whatever the data.
 
@@ -47,6 +48,7 @@ use hapticore_hdl::signal::{HalfEven, Proved, Saturate, Signal, Wrap, bit, int, 
 use hapticore_hdl::states::States;
 use hapticore_hdl::{block, bundle, call, next, states, when};
 
+mod motion;
 mod pressed;
 mod rule;
 
@@ -70,6 +72,15 @@ bundle! {
         filtered,
         /// Filtered speed, mm per frame.
         speed,
+        /// Filtered place along the surface.
+        along,
+        /// The point that follows the filtered place at the distance of the play: across the surface and along it.
+        anchor,
+        anchor_along,
+        /// The user left the pad's other wall in the last frame.
+        other_free,
+        /// He has, and the pad has not gone into this one since.
+        turned,
         /// Last direction that could be read.
         u,
         /// Mean |Δu| in free air.
@@ -126,6 +137,10 @@ block! {
         c_right: wall.capacitance,
         /// Position from the wall's surface, mm; negative within.
         x: wall.position,
+        /// Place along the wall's surface, mm.
+        along: wall.position,
+        /// The user leaves the pad's other wall.
+        other_free: BIT,
         /// The haptic voltage was zero in the frame.
         at_zero: BIT,
         /// Stiffness of the wall, N/mm.
@@ -155,6 +170,11 @@ block! {
         reads: BIT,
         /// |Δu|.
         moved: Format::unsigned(13, 13),
+        /// Motion since the anchor: inwards, and along the surface.
+        inwards: wall.motion(),
+        along: wall.motion(),
+        /// The pad slides along the surface.
+        slides: BIT,
         /// What the direction reads without a push.
         offset: OFFSET,
         /// Half the asymmetry that friction makes.
@@ -208,7 +228,7 @@ impl Wall {
         let pad = Format::counter(profile.pads - 1);
         let empty = Memory::new("kept", 0, BIT);
         let mut block = Wall {
-            words: 0,
+            words: 1,
             rule,
             pad,
             position,
@@ -222,7 +242,7 @@ impl Wall {
         let mut width = 1;
         Kept::map(block.kept_formats(), |format| {
             width = width.max(format.width);
-            block.words += u64::from(!format.is_none());
+            block.words += u64::from(!format.is_none() && format != BIT);
         });
         fits("formats.position", "what is kept of it", width + 8)?;
         let [stiff, ramped] = block.products();
@@ -249,6 +269,12 @@ impl Wall {
         Format::signed(self.position.width + 7, self.position.frac + 6)
     }
 
+    /// A difference of filtered places.
+    #[inline(always)]
+    fn motion(&self) -> Format {
+        Format::signed(self.position.width + 5, self.position.frac + 4)
+    }
+
     #[inline(always)]
     fn kept_formats(&self) -> Kept<Format> {
         Kept {
@@ -256,6 +282,11 @@ impl Wall {
             last: self.position,
             filtered: self.filtered(),
             speed: self.speed(),
+            along: self.filtered(),
+            anchor: self.filtered(),
+            anchor_along: self.filtered(),
+            other_free: BIT,
+            turned: BIT,
             u: U,
             change: CHANGE,
             zero: Format::counter(self.rule.zero_frames),
@@ -308,7 +339,7 @@ impl Wall {
     }
 
     /// What is kept of the pad, with the word that has been read last, while it is loaded. The first
-    /// word says whether the pad is known; a pad that is not, or starts anew, has words of its own.
+    /// word has all bits, and says whether the pad is known; a pad that is not, or starts anew, has words of its own.
     #[inline(always)]
     fn loaded<V: Interpretation>(
         &self,
@@ -316,33 +347,43 @@ impl Wall {
         i: &In<V>,
         word: Signal<V>,
     ) -> Kept<Signal<V>> {
-        let of_pad = r.kept.known.select(word, self.word(r, self.anew(i), 1));
-        let mut index = 0;
-        let kept = Kept::map(r.kept, |old| {
+        let anew = self.anew(i);
+        let of_pad = r.kept.known.select(word, self.word(r, anew, 1));
+        let is_first = r.count.is(1);
+        let known = word.bits(0, 1) & !i.restart;
+        let (mut index, mut place) = (1, 0);
+        Kept::map(Kept::zip(r.kept, anew), |(old, first)| {
             if old.format.is_none() {
                 return old;
+            }
+            if old.format == BIT {
+                place += 1;
+                return is_first.select(known.select(word.bits(place - 1, 1), first), old);
             }
             index += 1;
             let word = of_pad.bits(0, old.format.width).as_code(old.format);
             r.count.is(index).select(word, old)
-        });
-        let known = r.count.is(1).select(word.bits(0, 1) & !i.restart, r.kept.known);
-        Kept { known, ..kept }
+        })
     }
 
     /// The word of this clock, where the first one is that of count `from`.
     #[inline(always)]
     fn word<V: Interpretation>(&self, r: &Regs<V>, kept: Kept<Signal<V>>, from: u64) -> Signal<V> {
-        let (mut index, mut word) = (from, zero(self.kept.format));
+        let (mut index, mut word, mut bits) = (from, zero(self.kept.format), None::<Signal<V>>);
         Kept::map(kept, |of| {
             if of.format.is_none() {
                 return;
             }
-            let bits = of.bits(0, of.format.width).resize(self.kept.format, Proved);
-            word = r.count.is(index).select(bits, word);
+            if of.format == BIT {
+                bits = Some(bits.map_or(of, |low| of.concat(low)));
+                return;
+            }
             index += 1;
+            let code = of.bits(0, of.format.width).resize(self.kept.format, Proved);
+            word = r.count.is(index).select(code, word);
         });
-        word
+        let bits = bits.expect("a pad is known, or is not").resize(self.kept.format, Proved);
+        r.count.is(from).select(bits, word)
     }
 
     /// The registers after a step's last clock.
@@ -360,9 +401,9 @@ impl Wall {
         let r = Registers { step, count: int(0), done: at(Save), ..r };
         when!(
             at(Follow) => self.follow(r, i, quotient),
-            at(Learn) => self.learn(r),
-            at(Calibrate) => self.calibrate(r, i),
-            at(Weigh) => self.weigh(r),
+            at(Learn) => self.learn(self.moved(r, i)),
+            at(Calibrate) => self.calibrate(self.led(r, i), i),
+            at(Weigh) => self.weigh(self.judged(r, i)),
             at(Test) => self.test(r),
             at(Judge) => self.judge(r),
             at(Decide) => self.decide(r, i),

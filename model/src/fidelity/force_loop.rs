@@ -204,19 +204,13 @@ impl FixedLoop {
     /// The place of a valid frame.
     fn place(&mut self, frame: &Frame) {
         let Flags { invalid, lifted, .. } = frame.flags;
-        if invalid || lifted || self.drives.split_pad.is_none() {
+        let is_last = self.drives.split_pad.is_some() && self.drives.is_last(frame.pad);
+        if invalid || lifted || !is_last {
             return;
         }
         let of = |field: Field| frame.codes[field as usize];
         let number = frame.pad as i64;
-        let places = match self.drives.has_walls_along_y() {
-            false => vec![(number, of(Field::X))],
-            true if self.drives.is_last(frame.pad) => {
-                vec![(number, of(Field::X)), (number - 1, of(Field::Y))]
-            }
-            true => Vec::new(),
-        };
-        for (placed_pad, place) in places {
+        for (placed_pad, place) in [(number, of(Field::X)), (number - 1, of(Field::Y))] {
             self.clock(drives::Inputs { placed: 1, placed_pad, place, ..self.idle });
         }
     }

@@ -21,7 +21,7 @@
 //   6 FORCE        u20.17 (fraction 17)
 //   7 MEAN_SQUARE  u22.22 (fraction 22)
 // - MEAN_SQUARE: 0.780416 times the mean of V²/V_adc², V the haptic voltage, V_adc the full scale of its ADC channel.
-// - drive_valid: a drive word, 749 cycles after its slot's last strobe.
+// - drive_valid: a drive word, 753 cycles after its slot's last strobe.
 // - target_write, target_pad, target_word: a pad's target, taken as its slot's estimate is given; a sign of life.
 // - curve_write, curve_address, curve_word: a word of the curve per cycle, while no drive word is being made.
 // - proportional, correction, full_drive, rail, slew, force_cap: taken as a slot's estimate is given.
@@ -150,8 +150,8 @@ module hapticore_loop_loop (
     wire drives_force_fault; // u1.0
 
     wire equal_583c = core_index == 3'd3; // u1.0
-    wire signed [2:0] difference_3ad1 = {1'd0, core_pad} - 3'd1; // s3.0
     wire drives_placed = (((core_valid & (~core_invalid)) & (~core_lifted)) & ((core_index == 3'd2) | equal_583c)) & (core_pad == 2'd3); // u1.0
+    wire signed [2:0] difference_3ad1 = {1'd0, core_pad} - 3'd1; // s3.0
 
     hapticore_loop u_core (
         .clock(clock),

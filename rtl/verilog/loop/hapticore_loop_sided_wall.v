@@ -14,6 +14,8 @@ module hapticore_loop_sided_wall (
     input wire [23:0] right, // u24.13  Capacitance of the right part that senses, pF.
     input wire trusted, // u1.0  Its parts are to be trusted.
     input wire signed [18:0] depth, // s19.7  Place less the wall's surface, mm.
+    input wire signed [17:0] along, // s18.7  Place along the wall's surface, mm.
+    input wire other_free, // u1.0  The user leaves the pad's other wall.
     input wire mirrored, // u1.0  The wall is right of its surface.
     input wire at_zero, // u1.0  The haptic voltage was zero in the frame.
     input wire [15:0] stiffness, // u16.12  Stiffness of the wall, N/mm.
@@ -43,6 +45,8 @@ module hapticore_loop_sided_wall (
         .c_left(trusted ? (mirrored ? right : left) : 24'd0),
         .c_right(trusted ? (mirrored ? left : right) : 24'd0),
         .x((quantized_04e2[20:17] == {4{quantized_04e2[20]}}) ? quantized_04e2[17:0] : {quantized_04e2[20], {17{~quantized_04e2[20]}}}),
+        .along(along),
+        .other_free(other_free),
         .at_zero(at_zero),
         .stiffness(stiffness),
         .most(most),

@@ -16,8 +16,8 @@ module hapticore_loop_split_pad (
     input wire invalid, // u1.0  The estimate is invalid.
     input wire lifted, // u1.0  The part does not touch.
     input wire placed, // u1.0  A frame has a valid place.
-    input wire [1:0] placed_pad, // u2.0  Number of its part, or of that by which the pad's wall along y is known.
-    input wire signed [17:0] place, // s18.7  Place along the wall's axis, mm.
+    input wire [1:0] placed_pad, // u2.0  Number of its part for x, that before it for y.
+    input wire signed [17:0] place, // s18.7  Place along x, or along y, mm.
     input wire driven, // u1.0  A drive word is given.
     input wire rests, // u1.0  It is zero.
     input wire wall_write, // u1.0  Wall: writes the wall of a pad.
@@ -48,17 +48,19 @@ module hapticore_loop_split_pad (
     reg along_y; // u1.0  The wall along y is next, or under way.
     reg [19:0] target_q; // u20.17  What the wall along x has given.
     reg free_q; // u1.0
+    reg [3:0] free_pads; // u4.0  Pads whose user leaves the wall along y, as of their last frame.
     reg invalid_q; // u1.0  The estimate of a sensing part is invalid.
     reg unknown; // u1.0  That of what brakes is.
     reg lifted_q; // u1.0  A sensing part does not touch.
     reg released; // u1.0  One of what brakes does not.
     reg [23:0] capacitance_q; // u24.13
     reg [19:0] measured_q; // u20.17
-    reg asked; // u1.0  The pad's place and wall are asked for, then there.
+    reg asked; // u1.0  The pad's place and wall are asked for, then there, then its place along the wall.
     reg found; // u1.0
-    reg kept; // u1.0  Their words, where they have a register.
-    reg [17:0] place_word; // u18.0
+    reg crossed; // u1.0
+    reg [17:0] place_word; // u18.0  Their words. For the wall along y the two places, which have been read, change roles.
     reg [18:0] surface_word; // u19.0
+    reg [17:0] along_word; // u18.0
     reg start; // u1.0
     reg [3:0] placed_pads; // u4.0  Pads with places.
     reg [3:0] walled_pads; // u4.0  Pads with walls.
@@ -68,6 +70,7 @@ module hapticore_loop_split_pad (
     reg signed [18:0] depth; // s19.7  Place less surface.
     reg mirrored; // u1.0
     reg rests_q; // u1.0
+    (* no_rw_check *) // read-during-write: don't care
     (* ram_style = "block" *)
     reg [17:0] places [0:3]; // 4 words u18.0
     reg [17:0] places_word; // its read register
@@ -81,8 +84,14 @@ module hapticore_loop_split_pad (
 
     wire [24:0] sum_fc0a = {1'd0, along_y ? third : left} + {1'd0, right}; // u25.13
     wire [24:0] sum_d673 = {1'd0, along_y ? left : third} + {1'd0, fourth}; // u25.13
+    wire pad_is_0 = pad_q == 2'd0; // u1.0
+    wire pad_is_1 = pad_q == 2'd1; // u1.0
+    wire pad_is_2 = pad_q == 2'd2; // u1.0
+    wire pad_is_3 = pad_q == 2'd3; // u1.0
+    wire bit_7059 = (((free_pads[0] & pad_is_0) | (free_pads[1] & pad_is_1)) | (free_pads[2] & pad_is_2)) | (free_pads[3] & pad_is_3); // u1.0
     wire signed [2:0] pad_minus_1 = {1'd0, pad_q} - 3'd1; // s3.0
     wire [1:0] wall_pad_2 = along_y ? pad_minus_1[1:0] : pad_q; // u2.0
+    wire bit_3ad9 = wall_done & along_y; // u1.0
     wire bit_1360 = estimate & (pad == 2'd0); // u1.0
     wire bit_18e8 = estimate & (pad == 2'd3); // u1.0
     wire [26:0] sum_53a6 = {1'd0, bit_1360 ? 26'd0 : sum} + {3'd0, capacitance}; // u27.13
@@ -94,23 +103,21 @@ module hapticore_loop_split_pad (
     wire next_lifted_q = estimate ? ((bit_7231 & lifted_q) | lifted) : lifted_q; // u1.0
     wire [24:0] rounded = {1'b0, next_sum[25:2]} + {24'd0, next_sum[1] & (next_sum[2] | next_sum[0])};
     wire [20:0] rounded_2 = {1'b0, next_force_sum[21:2]} + {20'd0, next_force_sum[1] & (next_force_sum[2] | next_force_sum[0])};
-    wire bit_bbf1 = wall_done & (~along_y); // u1.0
-    wire signed [17:0] quantized_b20f = place_word; // s18.0
+    wire not_along_y = ~along_y; // u1.0
+    wire bit_bbf1 = wall_done & not_along_y; // u1.0
+    wire [3:0] choice_5683 = clear ? 4'd0 : free_pads; // u4.0
+    wire [1:0] joined_fb75 = {(bit_3ad9 & pad_is_1) ? wall_free : choice_5683[1], (bit_3ad9 & pad_is_0) ? wall_free : choice_5683[0]}; // u2.0
+    wire [3:0] next_free_pads = {(bit_3ad9 & pad_is_3) ? wall_free : choice_5683[3], {(bit_3ad9 & pad_is_2) ? wall_free : choice_5683[2], joined_fb75}}; // u4.0
+    wire signed [17:0] place_word_to_18 = place_word; // s18.0
     wire signed [17:0] quantized_8683 = surface_word[17:0]; // s18.0
-    wire pad_is_0 = pad_q == 2'd0; // u1.0
-    wire pad_is_1 = pad_q == 2'd1; // u1.0
-    wire pad_is_2 = pad_q == 2'd2; // u1.0
     wire bit_55f1 = ((resting_pads[0] & pad_is_0) | (resting_pads[1] & pad_is_1)) | (resting_pads[2] & pad_is_2); // u1.0
-    wire pad_is_3 = pad_q == 2'd3; // u1.0
     wire [3:0] choice_ab22 = clear ? 4'd0 : placed_pads; // u4.0
     wire [3:0] choice_cb05 = begins_anew ? 4'd0 : walled_pads; // u4.0
     wire [3:0] choice_13d0 = clear ? 4'd0 : resting_pads; // u4.0
-    wire equal_9f17 = wall_pad_2 == 2'd0; // u1.0
-    wire equal_9a57 = wall_pad_2 == 2'd1; // u1.0
-    wire equal_0522 = wall_pad_2 == 2'd2; // u1.0
-    wire bit_9431 = ((choice_ab22[0] & equal_9f17) | (choice_ab22[1] & equal_9a57)) | (choice_ab22[2] & equal_0522); // u1.0
-    wire equal_c898 = wall_pad_2 == 2'd3; // u1.0
-    wire bit_4102 = ((choice_cb05[0] & equal_9f17) | (choice_cb05[1] & equal_9a57)) | (choice_cb05[2] & equal_0522); // u1.0
+    wire bit_15b1 = (((choice_ab22[0] & pad_is_0) | (choice_ab22[1] & pad_is_1)) | (choice_ab22[2] & pad_is_2)) | (choice_ab22[3] & pad_is_3); // u1.0
+    wire bit_df62 = (choice_ab22[0] & (pad_minus_1[1:0] == 2'd0)) | (choice_ab22[1] & (pad_minus_1[1:0] == 2'd1)); // u1.0
+    wire bit_272a = (bit_df62 | (choice_ab22[2] & (pad_minus_1[1:0] == 2'd2))) | (choice_ab22[3] & (pad_minus_1[1:0] == 2'd3)); // u1.0
+    wire bit_4102 = ((choice_cb05[0] & (wall_pad_2 == 2'd0)) | (choice_cb05[1] & (wall_pad_2 == 2'd1))) | (choice_cb05[2] & (wall_pad_2 == 2'd2)); // u1.0
     wire not_clear = ~clear; // u1.0
     wire bit_1fa0 = placed & not_clear; // u1.0
     wire [1:0] joined_2fa2 = {(bit_1fa0 & (placed_pad == 2'd1)) ? 1'd1 : choice_ab22[1], (bit_1fa0 & (placed_pad == 2'd0)) ? 1'd1 : choice_ab22[0]}; // u2.0
@@ -131,6 +138,8 @@ module hapticore_loop_split_pad (
         .right(sum_d673[24:1] + {23'd0, sum_d673[0] & sum_d673[1]}),
         .trusted((placed_q & (~invalid_q)) & (~lifted_q)),
         .depth(depth),
+        .along(along_word),
+        .other_free(along_y ? free_q : bit_7059),
         .mirrored(mirrored),
         .at_zero(rests_q),
         .stiffness(wall_stiffness),
@@ -149,7 +158,7 @@ module hapticore_loop_split_pad (
 
     always @(posedge clock) begin
         if (placed) places[placed_pad] <= place;
-        places_word <= places[wall_pad_2];
+        places_word <= places[found ? pad_minus_1[1:0] : pad_q];
     end
 
     initial begin : initial_surfaces
@@ -174,6 +183,7 @@ module hapticore_loop_split_pad (
             along_y <= 1'd0;
             target_q <= 20'd0;
             free_q <= 1'd0;
+            free_pads <= 4'd0;
             invalid_q <= 1'd0;
             unknown <= 1'd0;
             lifted_q <= 1'd0;
@@ -182,9 +192,10 @@ module hapticore_loop_split_pad (
             measured_q <= 20'd0;
             asked <= 1'd0;
             found <= 1'd0;
-            kept <= 1'd0;
+            crossed <= 1'd0;
             place_word <= 18'd0;
             surface_word <= 19'd0;
+            along_word <= 18'd0;
             start <= 1'd0;
             placed_pads <= 4'd0;
             walled_pads <= 4'd0;
@@ -198,17 +209,22 @@ module hapticore_loop_split_pad (
             sum <= next_sum;
             force_sum <= next_force_sum;
             along_y <= ((~estimate) & along_y) | bit_bbf1;
+            free_pads <= next_free_pads;
             invalid_q <= next_invalid_q;
             lifted_q <= next_lifted_q;
             asked <= bit_18e8 | bit_bbf1;
             found <= asked;
-            kept <= found;
-            start <= kept;
+            crossed <= found;
+            along_word <=
+                (found & along_y) ? place_word
+                : (crossed & not_along_y) ? places_word
+                : along_word;
+            start <= crossed;
             placed_pads <= next_placed_pads;
             walled_pads <= next_walled_pads;
             resting_pads <= next_resting_pads;
             if (asked) begin
-                met <= (bit_9431 | (choice_ab22[3] & equal_c898)) & (bit_4102 | (choice_cb05[3] & equal_c898));
+                met <= (bit_15b1 & bit_272a) & (bit_4102 | (choice_cb05[3] & (wall_pad_2 == 2'd3)));
             end
             if (estimate & (pad == 2'd2)) begin
                 third <= capacitance;
@@ -226,13 +242,13 @@ module hapticore_loop_split_pad (
                 target_q <= wall_target;
                 free_q <= wall_free;
             end
-            if (kept) begin
+            if (crossed) begin
                 placed_q <= met;
-                depth <= {{1{quantized_b20f[17]}}, quantized_b20f} - {{1{quantized_8683[17]}}, quantized_8683};
+                depth <= {{1{place_word_to_18[17]}}, place_word_to_18} - {{1{quantized_8683[17]}}, quantized_8683};
                 mirrored <= surface_word[18];
             end
             if (found) begin
-                place_word <= places_word;
+                place_word <= along_y ? along_word : places_word;
                 surface_word <= surfaces_word;
                 rests_q <= bit_55f1 | (resting_pads[3] & pad_is_3);
             end
@@ -246,7 +262,7 @@ module hapticore_loop_split_pad (
         end
     end
 
-    assign done = wall_done & along_y;
+    assign done = bit_3ad9;
     assign capacitance_out = capacitance_q;
     assign measured_out = measured_q;
     assign invalid_out = unknown;

@@ -13,6 +13,8 @@ module hapticore_loop_wall (
     input wire [23:0] c_left, // u24.13  Capacitance of the left part that senses, pF.
     input wire [23:0] c_right, // u24.13  Capacitance of the right part that senses, pF.
     input wire signed [17:0] x, // s18.7  Position from the wall's surface, mm; negative within.
+    input wire signed [17:0] along, // s18.7  Place along the wall's surface, mm.
+    input wire other_free, // u1.0  The user leaves the pad's other wall.
     input wire at_zero, // u1.0  The haptic voltage was zero in the frame.
     input wire [15:0] stiffness, // u16.12  Stiffness of the wall, N/mm.
     input wire [19:0] most, // u20.17  Largest force of the wall, N.
@@ -29,6 +31,11 @@ module hapticore_loop_wall (
     reg signed [17:0] last; // s18.7  Last position, mm from the wall.
     reg signed [21:0] filtered; // s22.11  Filtered position.
     reg signed [24:0] speed; // s25.13  Filtered speed, mm per frame.
+    reg signed [21:0] along_q; // s22.11  Filtered place along the surface.
+    reg signed [21:0] anchor; // s22.11  The point that follows the filtered place at the distance of the play: across the surface and along it.
+    reg signed [21:0] anchor_along; // s22.11
+    reg other_free_q; // u1.0  The user left the pad's other wall in the last frame.
+    reg turned; // u1.0  He has, and the pad has not gone into this one since.
     reg signed [12:0] u; // s13.13  Last direction that could be read.
     reg [18:0] change; // u19.19  Mean |Δu| in free air.
     reg [3:0] zero; // u4.0  Frames without voltage.
@@ -49,6 +56,9 @@ module hapticore_loop_wall (
     reg any; // u1.0  There is current.
     reg reads; // u1.0  The direction is to be trusted.
     reg [12:0] moved; // u13.13  |Δu|.
+    reg signed [22:0] inwards_q; // s23.11  Motion since the anchor: inwards, and along the surface.
+    reg signed [22:0] along_q_2; // s23.11
+    reg slides; // u1.0  The pad slides along the surface.
     reg signed [21:0] offset; // s22.20  What the direction reads without a push.
     reg [20:0] friction; // u21.20  Half the asymmetry that friction makes.
     reg signed [10:0] y; // s11.8
@@ -93,21 +103,21 @@ module hapticore_loop_wall (
     wire count_is_17 = count == 5'd17; // u1.0
     wire count_is_18 = count == 5'd18; // u1.0
     wire count_is_19 = count == 5'd19; // u1.0
-    wire less_a57a = 20'd98304 < target; // u1.0
     wire count_is_20 = count == 5'd20; // u1.0
-    wire step_is_load = step == 4'd1; // u1.0
     wire count_is_21 = count == 5'd21; // u1.0
+    wire step_is_load = step == 4'd1; // u1.0
+    wire count_is_22 = count == 5'd22; // u1.0
     wire step_is_follow = step == 4'd3; // u1.0
-    wire bit_2f01 = ((step_is_load & count_is_21) | (step_is_divide & count_is_18)) | (step_is_follow & count_is_0); // u1.0
+    wire bit_8683 = ((step_is_load & count_is_22) | (step_is_divide & count_is_18)) | (step_is_follow & count_is_0); // u1.0
     wire step_is_learn = step == 4'd4; // u1.0
     wire step_is_calibrate = step == 4'd5; // u1.0
     wire step_is_weigh = step == 4'd6; // u1.0
-    wire bit_e4d9 = ((bit_2f01 | (step_is_learn & count_is_0)) | (step_is_calibrate & count_is_0)) | (step_is_weigh & count_is_0); // u1.0
+    wire bit_f84c = ((bit_8683 | (step_is_learn & count_is_0)) | (step_is_calibrate & count_is_0)) | (step_is_weigh & count_is_0); // u1.0
     wire step_is_test = step == 4'd7; // u1.0
     wire step_is_judge = step == 4'd8; // u1.0
     wire step_is_decide = step == 4'd9; // u1.0
-    wire bit_397d = ((bit_e4d9 | (step_is_test & count_is_0)) | (step_is_judge & count_is_0)) | (step_is_decide & count_is_0); // u1.0
-    wire bit_ac52 = ((bit_397d | (step_is_depth & count_is_2)) | (step_is_ramp & count_is_2)) | (write_kept & count_is_20); // u1.0
+    wire bit_859c = ((bit_f84c | (step_is_test & count_is_0)) | (step_is_judge & count_is_0)) | (step_is_decide & count_is_0); // u1.0
+    wire bit_e89a = ((bit_859c | (step_is_depth & count_is_2)) | (step_is_ramp & count_is_2)) | (write_kept & count_is_21); // u1.0
     wire [5:0] count_plus_1 = {1'd0, count} + 6'd1; // u6.0
     wire [4:0] choice_addf = write_kept ? 5'd0 : ({1'd0, step} + 5'd1); // u5.0
     wire [30:0] quantized_8ec9 = multiplier_product[30:0]; // u31.0
@@ -145,6 +155,10 @@ module hapticore_loop_wall (
         free_q ? (17'd0 - {{1{sum_9c4e[15]}}, sum_9c4e})
         : {{1{sum_9c4e[15]}}, sum_9c4e}; // s17.8
     wire signed [17:0] sum_725b = {{3{difference_2b78[14]}}, difference_2b78} + {{1{choice_1154[16]}}, choice_1154}; // s18.8
+    wire bit_abeb = other_free | turned; // u1.0
+    wire [22:0] magnitude_98da = along_q_2[22] ? 23'd0 - along_q_2 : along_q_2; // u23.11
+    wire [24:0] choice_b24e = bit_abeb ? {magnitude_98da, 2'd0} : {2'd0, magnitude_98da}; // u25.11
+    wire bit_72b6 = ($signed({{2{inwards_q[22]}}, inwards_q, 1'd0}) < $signed({1'd0, choice_b24e})) & ($signed(26'd205) < $signed({1'd0, choice_b24e})); // u1.0
     wire signed [22:0] u_minus_offset = {{3{u[12]}}, u, 7'd0} - {{1{offset[21]}}, offset}; // s23.20
     wire [29:0] sum_0_plus_friction = 30'd0 + {6'd0, friction, 3'd0}; // u30.24
     wire [29:0] sum_a5b9 = {1'd0, sum_0_plus_friction[28:0]} + {5'd0, friction, 4'd0}; // u30.24
@@ -154,6 +168,13 @@ module hapticore_loop_wall (
     wire [28:0] choice_c3a8 = free_q ? sum_a5b9[28:0] : 29'd0; // u29.24
     wire [29:0] choice_11e2 = less_df3e ? {1'd0, choice_c3a8} : {choice_c3a8, 1'd0}; // u30.17
     wire [21:0] rounded_3 = {1'b0, choice_11e2[29:9]} + {21'd0, choice_11e2[8] & (choice_11e2[9] | (|choice_11e2[7:0]))};
+    wire bit_ee03 = ($signed(24'd410) < $signed({1'd0, inwards_q[22] ? 23'd0 - inwards_q : inwards_q})) | ($signed(24'd410) < $signed({1'd0, magnitude_98da})); // u1.0
+    wire bit_280a = other_free & (~other_free_q); // u1.0
+    wire signed [23:0] along_minus_410 = {{2{along_q[21]}}, along_q} - 24'd410; // s24.11
+    wire signed [24:0] difference_f318 = {{1{anchor[21]}}, anchor, 2'd0} - {{3{anchor[21]}}, anchor}; // s25.11
+    wire signed [25:0] sum_6bdc = {{1{difference_f318[24]}}, difference_f318} + {{4{filtered[21]}}, filtered}; // s26.11
+    wire signed [24:0] difference_64f3 = {{1{anchor_along[21]}}, anchor_along, 2'd0} - {{3{anchor_along[21]}}, anchor_along}; // s25.11
+    wire signed [25:0] sum_3b37 = {{1{difference_64f3[24]}}, difference_64f3} + {{4{along_q[21]}}, along_q}; // s26.11
     wire inwards_frames_is_16 = inwards_frames == 5'd16; // u1.0
     wire outwards_frames_is_16 = outwards_frames == 5'd16; // u1.0
     wire signed [20:0] difference_899c = {{1{outwards[19]}}, outwards} - {{1{inwards[19]}}, inwards}; // s21.19
@@ -191,52 +212,56 @@ module hapticore_loop_wall (
     wire signed [28:0] difference_9014 = {{1{speed[24]}}, speed, 3'd0} - {{4{speed[24]}}, speed}; // s29.13
     wire signed [18:0] x_minus_last = {{1{x[17]}}, x} - {{1{last[17]}}, last}; // s19.7
     wire signed [29:0] sum_c9fa = {{1{difference_9014[28]}}, difference_9014} + {{5{x_minus_last[18]}}, x_minus_last, 6'd0}; // s30.13
+    wire signed [24:0] difference_5612 = {{1{along_q[21]}}, along_q, 2'd0} - {{3{along_q[21]}}, along_q}; // s25.11
+    wire signed [25:0] sum_6f9a = {{1{difference_5612[24]}}, difference_5612} + {{4{along[17]}}, along, 4'd0}; // s26.11
     wire [4:0] choice_fbf8 = (~(zero < 4'd10)) ? 5'd10 : ({1'd0, zero} + 5'd1); // u5.0
     wire signed [19:0] slow_minus_slow = {{1{slow[15]}}, slow, 3'd0} - {{4{slow[15]}}, slow}; // s20.16
     wire signed [20:0] sum_6c81 = {{1{slow_minus_slow[19]}}, slow_minus_slow} + {{5{choice_6999[12]}}, choice_6999, 3'd0}; // s21.16
     wire signed [13:0] difference_95c4 = {{1{choice_6999[12]}}, choice_6999} - {{1{u[12]}}, u}; // s14.13
     wire [13:0] magnitude_c058 = difference_95c4[13] ? 14'd0 - difference_95c4 : difference_95c4; // u14.13
-    wire constant_0 = 1'd0; // u1.0
-    wire [24:0] quantized_0_from_0_to_25 = {24'd0, constant_0}; // u25.0
     wire signed [21:0] x_to_22 = {x, 4'd0}; // s22.11
     wire [24:0] quantized_8949 = {3'd0, x_to_22}; // u25.0
-    wire signed [24:0] constant_0_2 = 25'd0; // s25.13
-    wire [18:0] constant_0_3 = 19'd0; // u19.19
-    wire [3:0] constant_0_4 = 4'd0; // u4.0
+    wire signed [24:0] constant_0 = 25'd0; // s25.13
+    wire signed [21:0] along_to_22 = {along, 4'd0}; // s22.11
+    wire [24:0] quantized_4af3 = {3'd0, along_to_22}; // u25.0
+    wire [18:0] constant_0_2 = 19'd0; // u19.19
+    wire [3:0] constant_0_3 = 4'd0; // u4.0
     wire signed [19:0] factory_to_20 = {{1{factory[12]}}, factory, 6'd0}; // s20.19
     wire [24:0] quantized_d72a = {5'd0, factory_to_20}; // u25.0
-    wire [4:0] constant_0_5 = 5'd0; // u5.0
-    wire [24:0] quantized_0_from_0_to_25_2 = {20'd0, constant_0_5}; // u25.0
-    wire [13:0] constant_0_6 = 14'd0; // u14.8
+    wire [4:0] constant_0_4 = 5'd0; // u5.0
+    wire [24:0] quantized_0_from_0_to_25 = {20'd0, constant_0_4}; // u25.0
+    wire [13:0] constant_0_5 = 14'd0; // u14.8
     wire [6:0] constant_64 = 7'd64; // u7.0
-    wire [10:0] constant_0_7 = 11'd0; // u11.10
+    wire [10:0] constant_0_6 = 11'd0; // u11.10
     wire signed [15:0] factory_to_16 = {factory, 3'd0}; // s16.16
     wire [24:0] quantized_89df = {9'd0, factory_to_16}; // u25.0
-    wire [6:0] constant_0_8 = 7'd0; // u7.0
-    wire [24:0] choice_15a9 =
+    wire [6:0] constant_0_7 = 7'd0; // u7.0
+    wire [24:0] choice_6b4a =
         known ? kept_word
-        : count_is_21 ? quantized_0_from_0_to_25
-        : count_is_20 ? {18'd0, constant_0_8}
-        : count_is_19 ? quantized_8949
-        : count_is_18 ? quantized_89df
-        : count_is_17 ? quantized_89df
-        : count_is_16 ? {14'd0, constant_0_7}
-        : count_is_15 ? {18'd0, constant_64}
-        : count_is_14 ? quantized_8949
-        : count_is_13 ? {11'd0, constant_0_6}
+        : count_is_1 ? {20'd0, {1'd0, {1'd0, {1'd0, {1'd0, 1'd0}}}}}
+        : count_is_22 ? {18'd0, constant_0_7}
+        : count_is_21 ? quantized_8949
+        : count_is_20 ? quantized_89df
+        : count_is_19 ? quantized_89df
+        : count_is_18 ? {14'd0, constant_0_6}
+        : count_is_17 ? {18'd0, constant_64}
+        : count_is_16 ? quantized_8949
+        : count_is_15 ? {11'd0, constant_0_5}
+        : count_is_14 ? quantized_0_from_0_to_25
+        : count_is_13 ? quantized_d72a
         : count_is_12 ? quantized_0_from_0_to_25
-        : count_is_11 ? quantized_0_from_0_to_25_2
-        : count_is_10 ? quantized_d72a
-        : count_is_9 ? quantized_0_from_0_to_25_2
-        : count_is_8 ? quantized_d72a
-        : count_is_7 ? {21'd0, constant_0_4}
-        : count_is_6 ? {6'd0, constant_0_3}
-        : count_is_5 ? {12'd0, factory}
-        : count_is_4 ? constant_0_2
+        : count_is_11 ? quantized_d72a
+        : count_is_10 ? {21'd0, constant_0_3}
+        : count_is_9 ? {6'd0, constant_0_2}
+        : count_is_8 ? {12'd0, factory}
+        : count_is_7 ? quantized_4af3
+        : count_is_6 ? quantized_8949
+        : count_is_5 ? quantized_4af3
+        : count_is_4 ? constant_0
         : count_is_3 ? quantized_8949
         : count_is_2 ? {7'd0, x}
-        : count_is_1 ? quantized_0_from_0_to_25
         : 25'd0; // u25.0
+    wire bit_3693 = kept_word[0] & (~restart); // u1.0
 
     hapticore_loop_divider_3 u_divider (
         .clock(clock),
@@ -264,7 +289,7 @@ module hapticore_loop_wall (
     end
 
     always @(posedge clock) begin
-        if (write_kept) kept[kept_address] <= count_is_20 ? {24'd0, less_a57a} : count_is_19 ? {18'd0, quiet} : count_is_18 ? {3'd0, deep} : count_is_17 ? {9'd0, slipped} : count_is_16 ? {9'd0, slow} : count_is_15 ? {14'd0, gain} : count_is_14 ? {18'd0, since} : count_is_13 ? {3'd0, extreme} : count_is_12 ? {11'd0, evidence} : count_is_11 ? {24'd0, free_q} : count_is_10 ? {20'd0, outwards_frames} : count_is_9 ? {5'd0, outwards} : count_is_8 ? {20'd0, inwards_frames} : count_is_7 ? {5'd0, inwards} : count_is_6 ? {21'd0, zero} : count_is_5 ? {6'd0, change} : count_is_4 ? {12'd0, u} : count_is_3 ? speed : count_is_2 ? {3'd0, filtered} : count_is_1 ? {7'd0, last} : count_is_0 ? {24'd0, known} : 25'd0;
+        if (write_kept) kept[kept_address] <= count_is_0 ? {20'd0, {20'd98304 < target, {free_q, {turned, {other_free_q, known}}}}} : count_is_21 ? {18'd0, quiet} : count_is_20 ? {3'd0, deep} : count_is_19 ? {9'd0, slipped} : count_is_18 ? {9'd0, slow} : count_is_17 ? {14'd0, gain} : count_is_16 ? {18'd0, since} : count_is_15 ? {3'd0, extreme} : count_is_14 ? {11'd0, evidence} : count_is_13 ? {20'd0, outwards_frames} : count_is_12 ? {5'd0, outwards} : count_is_11 ? {20'd0, inwards_frames} : count_is_10 ? {5'd0, inwards} : count_is_9 ? {21'd0, zero} : count_is_8 ? {6'd0, change} : count_is_7 ? {12'd0, u} : count_is_6 ? {3'd0, anchor_along} : count_is_5 ? {3'd0, anchor} : count_is_4 ? {3'd0, along_q} : count_is_3 ? speed : count_is_2 ? {3'd0, filtered} : count_is_1 ? {7'd0, last} : 25'd0;
         kept_word <= kept[kept_address];
     end
 
@@ -276,6 +301,11 @@ module hapticore_loop_wall (
             last <= 18'd0;
             filtered <= 22'd0;
             speed <= 25'd0;
+            along_q <= 22'd0;
+            anchor <= 22'd0;
+            anchor_along <= 22'd0;
+            other_free_q <= 1'd0;
+            turned <= 1'd0;
             u <= 13'd0;
             change <= 19'd0;
             zero <= 4'd0;
@@ -296,6 +326,9 @@ module hapticore_loop_wall (
             any <= 1'd0;
             reads <= 1'd0;
             moved <= 13'd0;
+            inwards_q <= 23'd0;
+            along_q_2 <= 23'd0;
+            slides <= 1'd0;
             offset <= 22'd0;
             friction <= 21'd0;
             y <= 11'd0;
@@ -315,76 +348,91 @@ module hapticore_loop_wall (
             end else if (step_is_idle) begin
                 done <= 1'd0;
             end else begin
-                count <= bit_ac52 ? 5'd0 : count_plus_1[4:0];
+                count <= bit_e89a ? 5'd0 : count_plus_1[4:0];
                 if (step_is_load) begin
                     done <= 1'd0;
+                    if (count_is_22) begin
+                        quiet <= choice_6b4a[6:0];
+                    end
                     if (count_is_21) begin
-                        latched <= choice_15a9[0];
+                        deep <= choice_6b4a[21:0];
                     end
                     if (count_is_20) begin
-                        quiet <= choice_15a9[6:0];
+                        slipped <= choice_6b4a[15:0];
                     end
                     if (count_is_19) begin
-                        deep <= choice_15a9[21:0];
+                        slow <= choice_6b4a[15:0];
                     end
                     if (count_is_18) begin
-                        slipped <= choice_15a9[15:0];
+                        gain <= choice_6b4a[10:0];
                     end
                     if (count_is_17) begin
-                        slow <= choice_15a9[15:0];
+                        since <= choice_6b4a[6:0];
                     end
                     if (count_is_16) begin
-                        gain <= choice_15a9[10:0];
+                        extreme <= choice_6b4a[21:0];
                     end
                     if (count_is_15) begin
-                        since <= choice_15a9[6:0];
+                        evidence <= choice_6b4a[13:0];
                     end
                     if (count_is_14) begin
-                        extreme <= choice_15a9[21:0];
+                        outwards_frames <= choice_6b4a[4:0];
                     end
                     if (count_is_13) begin
-                        evidence <= choice_15a9[13:0];
+                        outwards <= choice_6b4a[19:0];
                     end
                     if (count_is_12) begin
-                        free_q <= choice_15a9[0];
+                        inwards_frames <= choice_6b4a[4:0];
                     end
                     if (count_is_11) begin
-                        outwards_frames <= choice_15a9[4:0];
+                        inwards <= choice_6b4a[19:0];
                     end
                     if (count_is_10) begin
-                        outwards <= choice_15a9[19:0];
+                        zero <= choice_6b4a[3:0];
                     end
                     if (count_is_9) begin
-                        inwards_frames <= choice_15a9[4:0];
+                        change <= choice_6b4a[18:0];
                     end
                     if (count_is_8) begin
-                        inwards <= choice_15a9[19:0];
+                        u <= choice_6b4a[12:0];
                     end
                     if (count_is_7) begin
-                        zero <= choice_15a9[3:0];
+                        anchor_along <= choice_6b4a[21:0];
                     end
                     if (count_is_6) begin
-                        change <= choice_15a9[18:0];
+                        anchor <= choice_6b4a[21:0];
                     end
                     if (count_is_5) begin
-                        u <= choice_15a9[12:0];
+                        along_q <= choice_6b4a[21:0];
                     end
                     if (count_is_4) begin
-                        speed <= choice_15a9;
+                        speed <= choice_6b4a;
                     end
                     if (count_is_3) begin
-                        filtered <= choice_15a9[21:0];
+                        filtered <= choice_6b4a[21:0];
                     end
                     if (count_is_2) begin
-                        last <= choice_15a9[17:0];
+                        last <= choice_6b4a[17:0];
                     end
-                    if (count_is_1) begin
-                        known <= kept_word[0] & (~restart);
-                    end
-                    if (bit_ac52) begin
+                    if (bit_e89a) begin
                         step <= 4'd2;
                     end
-                end else if (bit_ac52) begin
+                    if (count_is_1) begin
+                        if (bit_3693) begin
+                            known <= kept_word[0];
+                            other_free_q <= kept_word[1];
+                            turned <= kept_word[2];
+                            free_q <= kept_word[3];
+                            latched <= kept_word[4];
+                        end else begin
+                            known <= 1'd0;
+                            other_free_q <= 1'd0;
+                            turned <= 1'd0;
+                            free_q <= 1'd0;
+                            latched <= 1'd0;
+                        end
+                    end
+                end else if (bit_e89a) begin
                     step <= choice_addf[3:0];
                     done <= write_kept;
                     if (step_is_follow) begin
@@ -392,6 +440,7 @@ module hapticore_loop_wall (
                         last <= x;
                         filtered <= sum_6e20[23:2] + {21'd0, sum_6e20[1] & (sum_6e20[2] | sum_6e20[0])};
                         speed <= sum_c9fa[27:3] + {24'd0, sum_c9fa[2] & (sum_c9fa[3] | (|sum_c9fa[1:0]))};
+                        along_q <= sum_6f9a[23:2] + {21'd0, sum_6f9a[1] & (sum_6f9a[2] | sum_6f9a[0])};
                         u <= choice_6999;
                         zero <= at_zero ? choice_fbf8[3:0] : 4'd0;
                         slow <= sum_6c81[18:3] + {15'd0, sum_6c81[2] & (sum_6c81[3] | (|sum_6c81[1:0]))};
@@ -399,6 +448,13 @@ module hapticore_loop_wall (
                         reads <= bit_e63d;
                         moved <= magnitude_c058[12:0];
                     end else if (step_is_learn) begin
+                        if (bit_280a) begin
+                            inwards_q <= 23'd0;
+                            along_q_2 <= 23'd410;
+                        end else begin
+                            inwards_q <= {{1{anchor[21]}}, anchor} - {{1{filtered[21]}}, filtered};
+                            along_q_2 <= {{1{along_q[21]}}, along_q} - {{1{anchor_along[21]}}, anchor_along};
+                        end
                         if (bit_48b3) begin
                             change <= sum_8c73[24:6] + {18'd0, sum_8c73[5] & (sum_8c73[6] | (|sum_8c73[4:0]))};
                         end
@@ -411,10 +467,21 @@ module hapticore_loop_wall (
                             inwards_frames <= choice_652d[4:0];
                         end
                     end else if (step_is_calibrate) begin
+                        other_free_q <= other_free;
                         offset <= choice_110c[21:0];
                         friction <= bit_bb06 ? ((quantized_6ccb < 21'd1573) ? 21'd1573 : quantized_6ccb) : 21'd6291;
+                        if (bit_280a) begin
+                            anchor <= filtered;
+                            anchor_along <=
+                                (along_minus_410[23:21] == {3{along_minus_410[23]}}) ? along_minus_410[21:0] : {along_minus_410[23], {21{~along_minus_410[23]}}};
+                        end else if (bit_ee03) begin
+                            anchor <= sum_6bdc[23:2] + {21'd0, sum_6bdc[1] & (sum_6bdc[2] | sum_6bdc[0])};
+                            anchor_along <= sum_3b37[23:2] + {21'd0, sum_3b37[1] & (sum_3b37[2] | sum_3b37[0])};
+                        end
                     end else if (step_is_weigh) begin
+                        turned <= bit_abeb & bit_72b6;
                         since <= choice_b656[6:0];
+                        slides <= bit_72b6;
                         y <=
                             reads ? ((rounded_2[19:10] == {10{rounded_2[19]}}) ? rounded_2[10:0] : {rounded_2[19], {10{~rounded_2[19]}}})
                             : 11'd0;
@@ -433,14 +500,14 @@ module hapticore_loop_wall (
                         end
                     end else if (step_is_decide) begin
                         free_q <= (~not_x_below_0) & (leaves ? not_free : free_q);
-                        if (not_x_below_0) begin
-                            gain <= 11'd1024;
-                        end else begin
-                            gain <=
-                                (leaves & free_q) ? 11'd0
-                                : (sum_296a < $signed(15'd0)) ? 11'd0
-                                : ($signed(15'd1024) < sum_296a) ? 11'd1024
-                                : sum_296a[10:0];
+                        gain <=
+                            slides ? 11'd0
+                            : not_x_below_0 ? 11'd1024
+                            : (leaves & free_q) ? 11'd0
+                            : (sum_296a < $signed(15'd0)) ? 11'd0
+                            : ($signed(15'd1024) < sum_296a) ? 11'd1024
+                            : sum_296a[10:0];
+                        if (~not_x_below_0) begin
                             if (leaves) begin
                                 since <= 7'd0;
                             end
@@ -479,8 +546,9 @@ module hapticore_loop_wall (
     // Unused bits.
     wire unused = &{1'b0, divider_done, divider_saturated, multiplier_product[35:34], magnitude_31ae[24],
         count_plus_1[5], choice_addf[4], sum_7747[27:26], sum_f663[19:18], choice_2313[7], sum_0_plus_friction[29],
-        sum_a5b9[29], choice_b656[7], choice_110c[22], sum_af64[27:26], choice_652d[5], sum_8c73[26:25],
-        choice_2843[14:13], sum_6e20[25:24], sum_c9fa[29:28], choice_fbf8[4], sum_6c81[20:19], magnitude_c058[13]};
+        sum_a5b9[29], choice_b656[7], sum_6bdc[25:24], sum_3b37[25:24], choice_110c[22], sum_af64[27:26],
+        choice_652d[5], sum_8c73[26:25], choice_2843[14:13], sum_6e20[25:24], sum_c9fa[29:28], sum_6f9a[25:24],
+        choice_fbf8[4], sum_6c81[20:19], magnitude_c058[13]};
 
 endmodule
 

@@ -41,6 +41,8 @@ impl Rule for Clocked {
             c_left: f.c_left.code_saturating(frame.left),
             c_right: f.c_right.code_saturating(frame.right),
             x: f.x.code_saturating(frame.x_mm),
+            along: f.along.code_saturating(frame.along_mm),
+            other_free: 0,
             at_zero: frame.at_zero.into(),
             stiffness: f.stiffness.code_saturating(self.stiffness.n_per_mm),
             most: f.most.code_saturating(self.stiffness.most_n),

@@ -91,12 +91,18 @@ pub fn scene_of(pad: Pad, hand: &Hand, mismatch_percent: f64, senses: &str) -> S
         let time_s = 4e-3 * f64::from(n);
         write!(points, "[{time_s:.3}, {:.6}],", hand.target_mm(time_s)).expect("a string takes it");
     }
+    let along: Vec<String> =
+        hand.along.iter().map(|[time_s, mm]| format!("[{time_s:.4}, {mm}]")).collect();
+    let y_mm = match along.is_empty() {
+        true => String::new(),
+        false => format!(", y_mm = [{}]", along.join(", ")),
+    };
     let load_g = 1e3 * hand.load_n / GRAVITY;
     let pushed = format!("push_height_mm = {PUSH_HEIGHT_MM}\n{senses}[hand]\n");
     let Hand { stiffness_n_per_m: k, damping_n_s_per_m: c, mass_kg: m, .. } = hand;
     format!(
         "title = \"a hand at a wall\"\nduration_s = {duration_s}\n[[pad]]\nload_g = {load_g}\n\
-         position_mm = {{ timeline = {{ x_mm = [{points}] }} }}\n{}\
+         position_mm = {{ timeline = {{ x_mm = [{points}]{y_mm} }} }}\n{}\
          stiffness_n_per_m = {k}\ndamping_n_s_per_m = {c}\nmass_kg = {m}\n\
          [friction]\nrung = \"lugre\"\n",
         pad.tables(mismatch_percent, "\"tr-bdf2\"", &pushed)

@@ -18,6 +18,8 @@ pub enum Phase {
     Enter,
     /// Pressing against it.
     Press,
+    /// Along its surface, pressing against it.
+    Slide,
     /// Out of it, slowly.
     LeaveSlowly,
     /// Out of it, fast.
@@ -52,10 +54,15 @@ pub struct Hand {
     pub tremor: [f64; 3],
     /// What it does.
     pub parts: Vec<Part>,
+    /// Where its target is along the surface: s, mm, straight in between; nowhere else without a point.
+    pub along: Vec<[f64; 2]>,
 }
 
 /// Where every trial begins, mm.
 const START_MM: f64 = 12.0;
+
+/// How far hands slide along the surface, mm.
+const SLIDE_MM: f64 = 20.0;
 
 impl Hand {
     /// A hand drawn at random, at a wall of `wall_n_per_mm` N/mm.
@@ -98,6 +105,7 @@ impl Hand {
             load_n,
             tremor,
             parts: plan.parts,
+            along: Vec::new(),
         }
     }
 
@@ -112,6 +120,23 @@ impl Hand {
         plan.go(Phase::Enter, aim_mm(press_n, hand.stiffness_n_per_m, wall_n_per_mm), 20.0);
         plan.wait(Phase::Press, 0.5);
         Hand { parts: plan.parts, ..hand }
+    }
+
+    /// The hand of a seed. It goes to and fro in air, presses into the wall, and slides along its surface by 20 mm while it
+    /// presses on.
+    pub fn sliding(seed: u64, wall_n_per_mm: f64, mm_per_s: f64) -> Hand {
+        let hand = Hand::draw(seed, wall_n_per_mm);
+        let press_n = 0.3 + 0.5 * Rng::with_seed(!seed).f64();
+        let mut plan = Plan { parts: Vec::new(), at_mm: START_MM, time_s: 0.0 };
+        for to_mm in [4.0, 11.0, 3.0] {
+            plan.go(Phase::Air, to_mm, 40.0);
+        }
+        plan.go(Phase::Enter, aim_mm(press_n, hand.stiffness_n_per_m, wall_n_per_mm), 40.0);
+        plan.wait(Phase::Press, 0.3);
+        let begins_s = plan.time_s;
+        plan.wait(Phase::Slide, SLIDE_MM / mm_per_s);
+        let along = vec![[begins_s, 0.0], [plan.time_s, SLIDE_MM]];
+        Hand { parts: plan.parts, along, ..hand }
     }
 
     /// How the paper's authors went through a wall once: in by 10 mm, a pause, out again.
@@ -131,6 +156,7 @@ impl Hand {
             load_n,
             tremor: [0.0, 10.0, 0.0],
             parts,
+            along: Vec::new(),
         }
     }
 

@@ -10,6 +10,7 @@
 //! | [`core`] | the same hands at a wall in the core, through its sensor chain |
 //! | [`trial`] | one hand, one rule: the loop |
 //! | [`measures`] | sticking force, release time, flips, bursts of them, vanished walls |
+//! | [`slide`] | what a hand feels that slides along the surface |
 //! | [`stiffness`] | how stiff the wall is to a hand that presses |
 //!
 //! The wall's surface is at x = 0 of the sheet, its inside at x < 0. A frame is one slot of one pad:
@@ -22,5 +23,6 @@ pub mod core;
 pub mod device;
 pub mod hand;
 pub mod measures;
+pub mod slide;
 pub mod stiffness;
 pub mod trial;

@@ -185,7 +185,8 @@ impl Setup {
             let (sensed, brakes_pf) = pad.capacitances(&truth);
             let noisy = sensed.map(|pf| pf * (1.0 + 0.01 * self.noise_percent * gauss(&mut rng)));
             let x_mm = truth.x_mm + PLACE_MM * gauss(&mut rng);
-            let frame = Frame { left: noisy[0], right: noisy[1], x_mm, at_zero: volts == 0.0 };
+            let at_zero = volts == 0.0;
+            let frame = Frame { left: noisy[0], right: noisy[1], x_mm, along_mm: 0.0, at_zero };
             let (target, direction) = match &mut judge {
                 Judge::Reads(rule) => rule.frame(&frame),
                 Judge::Knows(rule) => rule.frame(x_mm, truth.hand_n[0]),

@@ -5,7 +5,7 @@
 use super::bits::{extend, literal, width};
 use super::places::Place;
 use crate::format::Format;
-use crate::interpretations::netlist::{Module, Node, Ram};
+use crate::interpretations::netlist::{Module, Named, Node, Ram};
 use crate::memory::Collision;
 use std::collections::HashSet;
 use std::fmt::Write;
@@ -27,6 +27,15 @@ impl At {
 
     fn before(self) -> At {
         At { clock: self.clock - 1, ..self }
+    }
+}
+
+/// What tells a register from those before it that have its name, as in a bundle and beside it: `_2`.
+pub fn number_of(registers: &[Named], index: usize) -> String {
+    let name = registers[index].name;
+    match registers[..index].iter().filter(|other| other.name == name).count() {
+        0 => String::new(),
+        before => format!("_{}", before + 1),
     }
 }
 
@@ -77,12 +86,14 @@ impl<'a> Unrolled<'a> {
         format!("|{}{name}@{}|", self.places[at.place].path, at.clock)
     }
 
-    /// As in Verilog: a register with the name of an input gets `_q`.
+    /// As in Verilog: a register with the name of an input gets `_q`, and one of several with a name, as in a bundle and
+    /// beside it, a number.
     fn register_name(&self, at: At, index: usize) -> String {
         let module = self.module(at);
         let name = module.registers[index].name;
         let taken = module.inputs.iter().any(|port| port.name == name);
-        self.name(at, &format!("{name}{}", if taken { "_q" } else { "" }))
+        let q = if taken { "_q" } else { "" };
+        self.name(at, &format!("{name}{q}{}", number_of(&module.registers, index)))
     }
 
     /// Declares a variable, unless it is.

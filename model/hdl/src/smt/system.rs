@@ -4,7 +4,7 @@
 use super::bits::{any, literal, width};
 use super::fit;
 use super::places::Place;
-use super::state::{At, Unrolled, Variable};
+use super::state::{At, Unrolled, Variable, number_of};
 use super::used::Uses;
 use crate::format::Format;
 use crate::interpretations::netlist::{Module, Netlist, Node, Op, Wire};
@@ -150,9 +150,9 @@ impl<'a> System<'a> {
         let mut equal = Vec::new();
         for (index, place) in self.places.iter().enumerate() {
             let (at, live) = (At { clock, place: index }, Live::of(place.module));
-            let registers = place.module.registers.iter().enumerate();
-            for (register, named) in registers.filter(|(index, _)| live.registers[*index]) {
-                let name = format!("{}{}", place.path, named.name);
+            let all = &place.module.registers;
+            for (register, named) in all.iter().enumerate().filter(|(n, _)| live.registers[*n]) {
+                let name = format!("{}{}{}", place.path, named.name, number_of(all, register));
                 let (_, code) = codes.iter().find(|(of, _)| *of == name).expect("the model has it");
                 equal.push(is(&unrolled.register(at, register), *code, named.format));
             }

@@ -36,8 +36,6 @@ pub struct WholePad {
 #[derive(Debug, Clone)]
 pub struct WallAlong {
     wall: Wall,
-    /// Place of the last valid frame.
-    pub place: Option<Exact>,
     /// The wall's surface, and whether the wall is right of it, or above it; without one there is no wall.
     pub surface: Option<(Exact, bool)>,
 }
@@ -51,8 +49,12 @@ pub struct SplitPads {
     force: Format,
     /// Along x, and of quadrants along y.
     pub axes: Vec<WallAlong>,
+    /// Place of the last valid frame, x and y.
+    pub place: [Option<Exact>; 2],
     /// The pad is not driven.
     pub rests: bool,
+    /// The user leaves each axis's wall, as of its last frame.
+    pub free: [bool; 2],
 }
 
 impl SplitPads {
@@ -63,14 +65,16 @@ impl SplitPads {
     pub fn new(profile: &Profile) -> Self {
         let f = &profile.formats;
         let rule = profile.wall.expect("a profile with walls");
-        let along = |_| WallAlong { wall: Wall::new(profile), place: None, surface: None };
+        let along = |_| WallAlong { wall: Wall::new(profile), surface: None };
         SplitPads {
             parts: rule.parts,
             position: f.position,
             capacitance: f.capacitance,
             force: f.force,
             axes: (0..rule.axes()).map(along).collect(),
+            place: [None; 2],
             rests: false,
+            free: [false; 2],
         }
     }
 
@@ -104,11 +108,17 @@ impl SplitPads {
             _ => vec![[of(&[0]), of(&[1])]],
         };
         let trusted = sensing.iter().all(|part| !part.invalid && !part.lifted);
-        let position = self.position;
+        let (position, rests, [x, y]) = (self.position, self.rests, self.place);
+        let place = x.zip(y);
+        let free = &mut self.free;
         let walls = self.axes.iter_mut().zip(sides).enumerate().map(|(axis, (along, sides))| {
             let factory = if axis == 0 { port.factory } else { Exact::ZERO };
-            let port = WallFrame { at_zero: self.rests, factory, ..*port };
-            along.frame(if trusted { sides } else { [Exact::ZERO; 2] }, position, port)
+            let port = WallFrame { at_zero: rests, factory, other_free: free[1 - axis], ..*port };
+            let sides = if trusted { sides } else { [Exact::ZERO; 2] };
+            let place = place.map(|(x, y)| if axis == 0 { [x, y] } else { [y, x] });
+            let result = along.frame(sides, place, position, port);
+            free[axis] = result.free;
+            result
         });
         let larger = |a: Exact, b: Exact| if a < b { b } else { a };
         let both = |a: WallResult, b: WallResult| WallResult {
@@ -121,15 +131,24 @@ impl SplitPads {
 }
 
 impl WallAlong {
-    fn frame(&mut self, sides: [Exact; 2], position: Format, port: WallFrame) -> WallResult {
+    /// With the place across the wall's surface and along it.
+    fn frame(
+        &mut self,
+        sides: [Exact; 2],
+        place: Option<[Exact; 2]>,
+        position: Format,
+        port: WallFrame,
+    ) -> WallResult {
         let (surface, mirrored) = self.surface.unwrap_or((Exact::ZERO, false));
-        let depth = self.place.unwrap_or(Exact::ZERO) - surface;
-        let met = self.place.is_some() && self.surface.is_some();
+        let met = place.is_some() && self.surface.is_some();
+        let [across, along] = place.unwrap_or([Exact::ZERO; 2]);
+        let depth = across - surface;
         let [left, right] = if met { sides } else { [Exact::ZERO; 2] };
         let frame = WallFrame {
             restart: port.restart | !met,
             parts: if mirrored { [right, left] } else { [left, right] },
             x: round(if mirrored { -depth } else { depth }, position).value,
+            along,
             factory: if mirrored { round(-port.factory, U).value } else { port.factory },
             ..port
         };

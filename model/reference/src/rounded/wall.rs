@@ -4,6 +4,7 @@
 //! ```text
 //! x̄ = [(3x̄ + x)/4],  v = [(7v + Δx)/8],  u_in, u_out = [(3u + new)/4] or [(63u + new)/64]
 //! y = [(u − off)/σ],  b/σ·bf = […],  S, E in [0, 64)
+//! ȳ = [(3ȳ + y)/4],  a = [(3a + x̄, ȳ)/4] where it is farther than the play,  gain = 0 where its direction is along the surface
 //! F = [min([k_w·|x|], F_max)·gain]
 //! ū = [(7ū + u)/8],  r = [(3r + ū)/4],  d = [(d + x̄)/2] or [(15d + x̄ − slip)/16]     (rule B)
 //! ```
@@ -30,6 +31,10 @@ pub struct WallFrame {
     pub parts: [Exact; 2],
     /// Position from the wall.
     pub x: Exact,
+    /// Position along the wall's surface.
+    pub along: Exact,
+    /// The user leaves the pad's other wall.
+    pub other_free: bool,
     /// There was no haptic voltage.
     pub at_zero: bool,
     /// Stiffness.
@@ -69,6 +74,12 @@ struct Kept {
     last: Exact,
     filtered: Exact,
     speed: Exact,
+    /// Filtered place along the surface.
+    along: Exact,
+    /// The point that follows the filtered place, across the surface and along it.
+    anchor: [Exact; 2],
+    other_free: bool,
+    turned: bool,
     u: Exact,
     change: Exact,
     zero: u64,
@@ -133,6 +144,10 @@ impl Wall {
             last: i.x,
             filtered: i.x,
             speed: Exact::ZERO,
+            along: i.along,
+            anchor: [i.x, i.along],
+            other_free: false,
+            turned: false,
             u: i.factory,
             change: Exact::ZERO,
             zero: 0,
@@ -154,6 +169,8 @@ impl Wall {
         k.speed = mean(k.speed, i.x - k.last, 3, self.speed());
         k.filtered = mean(k.filtered, i.x, 2, self.filtered());
         k.last = i.x;
+        k.along = mean(k.along, i.along, 2, self.filtered());
+        let slides = self.slides(&mut k, i.other_free);
         k.zero = if i.at_zero { (k.zero + 1).min(self.rule.zero_frames) } else { 0 };
         let read = self.read(sum, right - left);
         if let Some(u) = read {
@@ -162,11 +179,37 @@ impl Wall {
         k.slow = mean(k.slow, k.u, 3, SLOW);
         let y = self.weigh(&mut k, i, read.is_some());
         self.test(&mut k, y, i.x);
+        if self.rule.rule == Release::Sequential && slides {
+            k.gain = Exact::ZERO;
+        }
         let target = self.target(&k, i, sum);
         k.latched = target > round_real(1e-3 * self.rule.latch_mn as f64, self.force);
         let free = k.free;
         self.kept = Some(k).filter(|_| !is_new || sum != Exact::ZERO);
         WallResult { target, free, valid: sum != Exact::ZERO }
+    }
+
+    /// Whether the pad slides along the surface; the anchor follows.
+    fn slides(&self, k: &mut Kept, other_free: bool) -> bool {
+        let place = [k.filtered, k.along];
+        let play = |share: f64| {
+            let to = Format::signed(self.position.width + 5, self.position.frac + 4);
+            round_real(share * 1e-3 * self.rule.play_um as f64, to)
+        };
+        let was_free = std::mem::replace(&mut k.other_free, other_free);
+        if other_free && !was_free {
+            k.turned = true;
+            k.anchor = [place[0], round(place[1] - play(1.0), self.filtered()).value];
+            return true;
+        }
+        let [inwards, along] = [k.anchor[0] - place[0], (place[1] - k.anchor[1]).magnitude()];
+        if inwards.magnitude() > play(1.0) || along > play(1.0) {
+            k.anchor = [0, 1].map(|n| mean(k.anchor[n], place[n], 2, self.filtered()));
+        }
+        k.turned |= other_free;
+        let along = if k.turned { along.scaled(2) } else { along };
+        k.turned &= along > inwards.scaled(1) && along > play(0.5);
+        along > inwards.scaled(1) && along > play(0.5)
     }
 
     /// u, where it is to be trusted.

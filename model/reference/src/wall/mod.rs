@@ -16,12 +16,13 @@
 //! | [`Eq12`] | voltage | the push leads out, as read in the frame |
 //! | [`Linear`] | force | never, or by eq. 12 on a calibrated direction |
 //! | [`Fused`] | force | a filtered, calibrated direction passes a threshold; motion inwards engages |
-//! | [`Sequential`] | force | a sequential test on the direction, or play of the position, says so: rules A and B |
+//! | [`Sequential`] | force | a sequential test on the direction, or play of the position, says so: rules A and B; no force where the pad slides along the surface |
 //!
 //! The wall's surface is at x = 0 and its inside at x < 0; a push into it reads u < 0. Lengths in
 //! mm, forces in N, voltages in V rms, capacitances in any unit. Source: docs/physics.md §6.
 
 mod fused;
+mod motion;
 mod paper;
 mod pressed;
 mod sequential;
@@ -42,6 +43,8 @@ pub struct Frame {
     pub right: f64,
     /// Place of the pad right of the wall's surface, mm.
     pub x_mm: f64,
+    /// Its place along the surface, mm.
+    pub along_mm: f64,
     /// The haptic voltage of the frame was zero.
     pub at_zero: bool,
 }

@@ -10,7 +10,7 @@
 //! x ≥ 0   PUSH, S = E = 0, gain = 1
 //! PUSH    S = max(0, S + y + bf·b/σ − ½);  v < −20 mm/s: S = min(S, h1);  S > h1 or x̄ − min x̄ > 0.2 mm → FREE
 //! FREE    E = max(0, E − y − ½ − kb·b/σ);  E > h2 and v ≤ 20 mm/s, or max x̄ − x̄ > 0.2 mm → PUSH, gain = 0
-//! F = min(k_w·|x|, F_max)·gain,   gain += 1/40 per ms, up to 1
+//! F = min(k_w·|x|, F_max)·gain,   gain += 1/40 per ms, up to 1; 0 where the pad slides along the surface: see `motion.rs`
 //! ```
 //!
 //! Rule B, whose halves brake too, lets the force of a push that may have ended fall: see `pressed.rs`.
@@ -19,6 +19,7 @@
 //! with a part open, there is no evidence, y = 0, and nothing is learnt; a pad without any current is
 //! let go. Source: docs/physics.md §6.
 
+use super::motion::Motion;
 use super::pressed::{Fade, Pressed};
 use super::{Direction, Frame, Rule, Stiffness, Target};
 use hapticore_contract::profile::{Release, Wall};
@@ -148,6 +149,8 @@ pub struct Sequential {
     /// Filtered u.
     slow_u: f64,
     pressed: Pressed,
+    lead: Motion,
+    other_free: bool,
     /// The force that was asked for last, N.
     last_n: f64,
 }
@@ -175,6 +178,8 @@ impl Sequential {
             gain: 0.0,
             slow_u: factory,
             pressed: Pressed::at(factory, 0.0),
+            lead: Motion::default(),
+            other_free: false,
             last_n: 0.0,
         }
     }
@@ -205,6 +210,11 @@ impl Sequential {
             (self.inwards.u, self.outwards.u) = (factory, factory);
             self.pressed = Pressed::at(factory, 0.0);
         }
+    }
+
+    /// Sets whether the user leaves the pad's other wall: then this one brakes only a pad that goes into it.
+    pub fn set_other_free(&mut self, free: bool) {
+        self.other_free = free;
     }
 
     /// Filtered place and speed, mm and mm/s.
@@ -302,6 +312,8 @@ impl Rule for Sequential {
         let y = read.map_or(0.0, |u| ((u - offset) / sigma).clamp(-4.0, 4.0));
         self.since_ms += self.frame_ms;
         self.slow_u += (u - self.slow_u) / 8.0;
+        let slides =
+            self.lead.slides([filtered_mm, frame.along_mm], self.other_free, self.numbers.play_mm);
         if self.numbers.rule != Release::Sequential {
             let leads_out = self.numbers.rule == Release::Direct && frame.x_mm < 0.0 && y > 0.0;
             self.direction = if leads_out { Direction::Free } else { Direction::Push };
@@ -321,6 +333,9 @@ impl Rule for Sequential {
             }
         } else {
             self.gain = (self.gain + self.gain_step(sigma, filtered_mm)).clamp(0.0, 1.0);
+        }
+        if self.numbers.rule == Release::Sequential && slides {
+            self.gain = 0.0;
         }
         let force_n = match self.direction {
             _ if frame.left + frame.right <= 0.0 => 0.0,

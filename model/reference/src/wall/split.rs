@@ -28,8 +28,10 @@ struct Axis {
     factory: f64,
     /// Where it begins; without it there is none.
     surface: Option<Surface>,
-    /// Place of the last valid frame, mm.
-    place_mm: Option<f64>,
+    /// The user leaves the wall, as of the last frame.
+    is_free: bool,
+    /// Place of the last valid frame across the surface and along it, mm.
+    place_mm: Option<[f64; 2]>,
 }
 
 #[derive(Clone, Debug)]
@@ -57,6 +59,7 @@ impl SplitPads {
             wall: Sequential::of_profile(stiffness, wall, mirrored(factory, walls.right)),
             factory,
             surface: None,
+            is_free: false,
             place_mm: None,
         };
         let axes = [walls.factory, 0.0].into_iter().take(wall.axes() as usize).map(axis).collect();
@@ -87,7 +90,8 @@ impl SplitPads {
     /// The place of a valid frame, x and y.
     pub fn place(&mut self, part: usize, place_mm: [f64; 2]) {
         if part % self.parts == self.parts - 1 {
-            let axes = self.pad(part).axes.iter_mut().zip(place_mm);
+            let [x_mm, y_mm] = place_mm;
+            let axes = self.pad(part).axes.iter_mut().zip([[x_mm, y_mm], [y_mm, x_mm]]);
             axes.for_each(|(axis, mm)| axis.place_mm = Some(mm));
         }
     }
@@ -146,27 +150,35 @@ impl Pad {
             }
         };
         let rests = self.rests;
-        let each = self.axes.iter_mut().enumerate().map(|(n, axis)| axis.walled(sides(n), rests));
-        each.reduce(|a, b| Walled { target_n: a.target_n.max(b.target_n), free: a.free | b.free })
+        let mut each = Vec::new();
+        for n in 0..self.axes.len() {
+            let other_free = self.axes.get(1 - n).is_some_and(|other| other.is_free);
+            self.axes[n].wall.set_other_free(other_free);
+            each.push(self.axes[n].walled(sides(n), rests));
+        }
+        each.into_iter()
+            .reduce(|a, b| Walled { target_n: a.target_n.max(b.target_n), free: a.free | b.free })
             .expect("a pad has an axis")
     }
 }
 
 impl Axis {
     fn walled(&mut self, [a, b]: [f64; 2], at_zero: bool) -> Walled {
-        let Some((place_mm, surface)) = self.place_mm.zip(self.surface) else {
+        let Some(([place_mm, along_mm], surface)) = self.place_mm.zip(self.surface) else {
+            self.is_free = false;
             return Walled { target_n: 0.0, free: false };
         };
         let depth_mm = place_mm - surface.mm;
         let frame = match surface.right {
-            true => Frame { left: b, right: a, x_mm: -depth_mm, at_zero },
-            false => Frame { left: a, right: b, x_mm: depth_mm, at_zero },
+            true => Frame { left: b, right: a, x_mm: -depth_mm, along_mm, at_zero },
+            false => Frame { left: a, right: b, x_mm: depth_mm, along_mm, at_zero },
         };
         let (target, direction) = self.wall.frame(&frame);
+        self.is_free = direction == Direction::Free;
         let target_n = match target {
             Target::Force(newtons) => newtons,
             Target::Voltage(_) => 0.0,
         };
-        Walled { target_n, free: direction == Direction::Free }
+        Walled { target_n, free: self.is_free }
     }
 }

@@ -71,6 +71,9 @@ impl Wall {
             u: i.factory,
             inwards: i.factory.resize(LEARNT, Proved),
             outwards: i.factory.resize(LEARNT, Proved),
+            along: i.along.resize(formats.along, Proved),
+            anchor: i.x.resize(formats.anchor, Proved),
+            anchor_along: i.along.resize(formats.anchor_along, Proved),
             extreme: i.x.resize(formats.extreme, Proved),
             since: code(self.rule.dwell_frames as i64, formats.since),
             pressed: self.unpressed(i.factory, i.x),
@@ -100,6 +103,7 @@ impl Wall {
             last: i.x,
             filtered: filtered(kept.filtered, i.x, 2, self.filtered()),
             speed: filtered(kept.speed, i.x - kept.last, 3, self.speed()),
+            along: filtered(kept.along, i.along, 2, self.filtered()),
             u,
             zero: i.at_zero.select(counted(kept.zero, zeros), zero(kept.zero.format)),
             pressed: Pressed { slow: self.slow(kept.pressed.slow, u), ..kept.pressed },
@@ -271,6 +275,7 @@ impl Wall {
         // Of what is free neither gain nor push counts: both begin anew when it engages.
         let goes_on = if self.fades() { self.pressed(&r) } else { k };
         let gain = outside.select(number(1.0, GAIN), restarts.select(zero(GAIN), goes_on.gain));
+        let gain = r.slides.select(zero(GAIN), gain);
         let free = !outside & (r.leaves.select(!k.free, k.free));
         let kept = Kept {
             free,

@@ -27,7 +27,10 @@ fn of_all_rules() -> Vec<Profile> {
         wall: Some(profile::Wall { rule, ..profile::Wall::A }),
         ..Profile::bundled("small").unwrap()
     };
-    profiles().into_iter().chain([Release::Never, Release::Direct].map(of)).collect()
+    let quadrants =
+        Profile { wall: Some(profile::Wall::QUADRANTS), ..Profile::bundled("fast").unwrap() };
+    let of_paper = [Release::Never, Release::Direct].map(of);
+    profiles().into_iter().chain(of_paper).chain([quadrants]).collect()
 }
 
 /// The block and its reference, pad by pad.
@@ -55,6 +58,8 @@ impl Pair {
             restart: inputs.restart == 1,
             parts: [inputs.c_left, inputs.c_right].map(|code| Exact::of(code, f.c_left)),
             x: Exact::of(inputs.x, f.x),
+            along: Exact::of(inputs.along, f.along),
+            other_free: inputs.other_free == 1,
             at_zero: inputs.at_zero == 1,
             stiffness: Exact::of(inputs.stiffness, f.stiffness),
             most: Exact::of(inputs.most, f.most),
@@ -77,6 +82,8 @@ impl Pair {
             c_left: f.c_left.code_saturating(left),
             c_right: f.c_right.code_saturating(right),
             x: f.x.code_saturating(x_mm),
+            along: 0,
+            other_free: 0,
             at_zero: at_zero.into(),
             stiffness: f.stiffness.code_saturating(0.5),
             most: f.most.code_saturating(1.0),
@@ -106,6 +113,10 @@ fn walls_are_those_of_the_reference_where_a_hand_drags_the_pad() {
                 let (parts, x_mm) = dragged(&mut random, n + 300 * pad);
                 let mut inputs = pair.given(pad as i64, parts, x_mm, x_mm > 0.0);
                 inputs.restart = i64::from(random.below(3000) == 0);
+                // It slides along the surface, too, for half of each turn.
+                let slides_mm = ((n + 300 * pad) % 700).saturating_sub(350) as f64 * 0.01;
+                inputs.along = pair.formats.along.code_saturating(slides_mm);
+                inputs.other_free = i64::from(n / 40 % 3 == 0);
                 let out = pair.frame(inputs);
                 frees += out.free;
                 targets += i64::from(out.target > 0);
@@ -128,6 +139,9 @@ struct Hand {
     x_mm: f64,
     to_mm: f64,
     step_mm: f64,
+    /// Place along the surface, and how far it goes there in a frame.
+    along_mm: f64,
+    slide_mm: f64,
     push: f64,
     driven: bool,
     /// Frames that are left with a part open.
@@ -139,7 +153,16 @@ impl Hand {
     fn puts_on(random: &mut Random) -> Self {
         let x_mm = random.between(-0.5, 1.5);
         let open = if random.below(3) == 0 { 15 } else { 0 };
-        Hand { x_mm, to_mm: x_mm, step_mm: 0.0, push: 0.0, driven: false, open }
+        Hand {
+            x_mm,
+            to_mm: x_mm,
+            step_mm: 0.0,
+            along_mm: 0.0,
+            slide_mm: 0.0,
+            push: 0.0,
+            driven: false,
+            open,
+        }
     }
 
     /// What the parts read and where the pad is in the next frame.
@@ -151,8 +174,12 @@ impl Hand {
             let any = random.between(-0.03, 0.03);
             self.push = if random.below(2) == 0 { along } else { any };
             self.driven = random.below(4) == 0;
+            // It does not slide, or slides at some angle to the surface.
+            let slides = random.below(3) == 0;
+            self.slide_mm = if slides { random.between(-0.06, 0.06) } else { 0.0 };
         }
         self.x_mm += self.step_mm * (self.to_mm - self.x_mm).signum();
+        self.along_mm += self.slide_mm;
         let u = u + self.push + noise * random.between(-1.0, 1.0);
         let right = if self.open > 0 { 0.0 } else { 170.0 * (1.0 + u) };
         self.open = self.open.saturating_sub(1);
@@ -181,6 +208,7 @@ fn walls_are_those_of_the_reference_where_a_hand_does_as_it_likes() {
                 let (parts, x_mm) = hand.goes_on(&mut random, u, noise);
                 let mut inputs = pair.given(pad as i64, parts, x_mm, x_mm > 0.0 && !hand.driven);
                 (inputs.restart, inputs.factory) = (restarts.into(), factories[pad]);
+                inputs.along = pair.formats.along.code_saturating(hand.along_mm);
                 let out = pair.frame(inputs);
                 if x_mm < 0.0 {
                     states[2 * pad + out.free as usize] += 1;
@@ -219,10 +247,10 @@ fn a_part_that_was_open_at_first_makes_no_noise() {
 
 #[test]
 fn what_is_kept_has_a_power_of_two_of_words_for_every_number_of_a_pad() {
-    for (wall, of_pad) in [(None, 16), (Some(profile::Wall::B), 32)] {
+    for wall in [None, Some(profile::Wall::B)] {
         for pads in 2..=9 {
             let profile = Profile { pads, wall, ..Profile::bundled("small").unwrap() };
-            let words = of_pad * (pads as usize).next_power_of_two();
+            let words = 32 * (pads as usize).next_power_of_two();
             assert_eq!(Wall::try_new(&profile).unwrap().kept.words, words, "{pads} pads");
         }
     }
@@ -259,9 +287,16 @@ fn walls_are_those_of_the_reference_whatever_the_words() {
             let x =
                 if random.below(3) == 0 { next.x } else { inputs.x + random.below(9) as i64 - 4 };
             let x = x.clamp(formats.x.min_code() as i64, formats.x.max_code() as i64);
+            let along = match random.below(3) {
+                0 => next.along,
+                _ => inputs.along + random.below(17) as i64 - 8,
+            };
+            let along =
+                along.clamp(formats.along.min_code() as i64, formats.along.max_code() as i64);
             let at_zero = i64::from(random.below(30) != 0);
             let (pad, start) = (next.pad.rem_euclid(2), 0);
-            inputs = Inputs { start, restart, x, at_zero, pad, ..next };
+            let other_free = next.other_free & i64::from(random.below(3) == 0);
+            inputs = Inputs { start, restart, x, along, other_free, at_zero, pad, ..next };
             if random.below(2) == 0 {
                 inputs.c_right = inputs.c_left + inputs.c_left / 64;
                 inputs.c_right = inputs.c_right.min(formats.c_right.max_code() as i64);
@@ -314,6 +349,65 @@ fn at_the_surface_there_is_no_force_and_no_push_is_no_release() {
         let last = (0..100).map(|_| pair.frame(rail)).last().unwrap();
         assert_eq!(last.target, still.most, "at the rail the largest force holds it");
     }
+}
+
+/// Braking a pad that slides along the surface is drag, and holds it off nothing.
+#[test]
+fn a_pad_that_slides_along_the_surface_is_not_braked_until_it_goes_inwards() {
+    for profile in profiles() {
+        let mut pair = Pair::new(&profile);
+        let force = pair.force;
+        let mut place_mm = [0.5, 0.0];
+        let mut goes = |across: f64, along: f64, frames: u32| -> Vec<f64> {
+            let mut frame = || {
+                (place_mm[0], place_mm[1]) = (place_mm[0] + across, place_mm[1] + along);
+                let mut inputs = pair.given(0, [170.0; 2], place_mm[0], false);
+                inputs.along = pair.formats.along.code_saturating(place_mm[1]);
+                force.real(pair.frame(inputs).target)
+            };
+            (0..frames).map(|_| frame()).collect()
+        };
+        let last = |forces: &[f64]| *forces.last().expect("frames");
+        let is_near = |force_n: f64, expected_n: f64| (force_n - expected_n).abs() < 0.01;
+        // As into a corner.
+        assert!(is_near(last(&goes(-0.02, 0.02, 75)), 0.5), "{}: 1 mm deep", profile.name);
+        assert!(is_near(last(&goes(0.0, 0.0, 100)), 0.5), "it stands still");
+        // Within half of the play it need not slide.
+        assert!(is_near(last(&goes(0.0, 0.005, 4)), 0.5), "0.02 mm along the surface");
+        let slides = goes(0.0, -0.05, 20);
+        assert_eq!(last(&slides), 0.0, "{slides:?}");
+        assert_eq!(last(&goes(0.0, 0.0, 200)), 0.0, "it stands still, where it has slid to");
+        assert_eq!(last(&goes(-0.01, 0.03, 80)), 0.0, "at 18° to the surface");
+        let inwards = goes(-0.005, 0.0, 100);
+        assert!(is_near(last(&inwards), 1.0), "{inwards:?}");
+    }
+}
+
+/// In a corner this wall would hold back what leaves the other.
+#[test]
+fn where_the_user_leaves_the_other_wall_only_a_pad_that_goes_inwards_is_braked() {
+    let profile =
+        Profile { wall: Some(profile::Wall::QUADRANTS), ..Profile::bundled("fast").unwrap() };
+    let mut pair = Pair::new(&profile);
+    let force = pair.force;
+    let mut place_mm = [0.5, 0.0];
+    let mut goes = |across: f64, along: f64, other_free: bool, frames: u32| -> f64 {
+        let mut last = 0.0;
+        for _ in 0..frames {
+            (place_mm[0], place_mm[1]) = (place_mm[0] + across, place_mm[1] + along);
+            let mut inputs = pair.given(0, [170.0; 2], place_mm[0], false);
+            inputs.along = pair.formats.along.code_saturating(place_mm[1]);
+            inputs.other_free = other_free.into();
+            last = force.real(pair.frame(inputs).target);
+        }
+        last
+    };
+    let into_the_corner = goes(-0.02, -0.02, false, 50);
+    assert!((into_the_corner - 0.25).abs() < 0.02, "{into_the_corner} N, 0.5 mm deep");
+    assert_eq!(goes(0.0, 0.0, true, 1), 0.0, "the user leaves the other wall");
+    assert_eq!(goes(-0.02, 0.02, true, 20), 0.0, "drawn out of the corner, and into this wall");
+    assert_eq!(goes(-0.02, 0.02, false, 10), 0.0, "the same, out of the other wall");
+    assert!(goes(-0.02, 0.0, false, 80) > 0.9, "it goes into this wall");
 }
 
 /// A pad on a wall by rule B that is pressed in to some depth, mm.
