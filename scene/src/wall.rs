@@ -46,7 +46,7 @@ keys! { KEYS:
     STIFFNESS_N_PER_MM: f64 = Key::number("stiffness_n_per_mm", Limits::within(0.0, 15.0)).or(0.5);
     /// The most that the wall gives.
     FORCE_N: f64 = Key::number("force_n", Limits::within(0.0, 100.0)).or(1.0);
-    /// Way back of the pad after which the hand has turned, whatever the push reads.
+    /// Way back of the pad after which the hand has turned, whatever the push reads; half of it along the surface is sliding.
     PLAY_MM: Option<f64> = Key::number("play_mm", Limits::within(0.001, 10.0)).usually("the profile's, 0.2");
     /// The direction keeps its offset, which is otherwise taken out at the factory and then in free air.
     UNCALIBRATED: bool = Key::flag("uncalibrated");

@@ -60,7 +60,8 @@ pub struct Wall {
     pub learn_um: u64,
     /// Speed beyond which only play releases, or nothing engages, µm per frame.
     pub fast_um: u64,
-    /// Play of the position, µm.
+    /// Play of the position, µm; also the way after which a direction of motion counts: half of it along the surface is
+    /// sliding.
     pub play_um: u64,
     /// Distance from the wall at which air is free, µm.
     pub clear_um: u64,
