@@ -79,7 +79,7 @@ bundle! {
         anchor_along,
         /// The user left the pad's other wall in the last frame.
         other_free,
-        /// He has, and the pad has not gone into this one since.
+        /// The user left the pad's other wall, and the pad has not gone into this one since.
         turned,
         /// Last direction that could be read.
         u,
@@ -170,9 +170,9 @@ block! {
         reads: BIT,
         /// |Δu|.
         moved: Format::unsigned(13, 13),
-        /// Motion since the anchor: inwards, and along the surface.
-        inwards: wall.motion(),
-        along: wall.motion(),
+        /// The way from the point that follows: into the wall, and along its surface.
+        normal: wall.motion(),
+        tangential: wall.motion(),
         /// The pad slides along the surface.
         slides: BIT,
         /// What the direction reads without a push.

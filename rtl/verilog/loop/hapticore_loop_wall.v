@@ -35,7 +35,7 @@ module hapticore_loop_wall (
     reg signed [21:0] anchor; // s22.11  The point that follows the filtered place at the distance of the play: across the surface and along it.
     reg signed [21:0] anchor_along; // s22.11
     reg other_free_q; // u1.0  The user left the pad's other wall in the last frame.
-    reg turned; // u1.0  He has, and the pad has not gone into this one since.
+    reg turned; // u1.0  The user left the pad's other wall, and the pad has not gone into this one since.
     reg signed [12:0] u; // s13.13  Last direction that could be read.
     reg [18:0] change; // u19.19  Mean |Δu| in free air.
     reg [3:0] zero; // u4.0  Frames without voltage.
@@ -56,8 +56,8 @@ module hapticore_loop_wall (
     reg any; // u1.0  There is current.
     reg reads; // u1.0  The direction is to be trusted.
     reg [12:0] moved; // u13.13  |Δu|.
-    reg signed [22:0] inwards_q; // s23.11  Motion since the anchor: inwards, and along the surface.
-    reg signed [22:0] along_q_2; // s23.11
+    reg signed [22:0] normal; // s23.11  The way from the point that follows: into the wall, and along its surface.
+    reg signed [22:0] tangential; // s23.11
     reg slides; // u1.0  The pad slides along the surface.
     reg signed [21:0] offset; // s22.20  What the direction reads without a push.
     reg [20:0] friction; // u21.20  Half the asymmetry that friction makes.
@@ -156,9 +156,9 @@ module hapticore_loop_wall (
         : {{1{sum_9c4e[15]}}, sum_9c4e}; // s17.8
     wire signed [17:0] sum_725b = {{3{difference_2b78[14]}}, difference_2b78} + {{1{choice_1154[16]}}, choice_1154}; // s18.8
     wire bit_abeb = other_free | turned; // u1.0
-    wire [22:0] magnitude_98da = along_q_2[22] ? 23'd0 - along_q_2 : along_q_2; // u23.11
-    wire [24:0] choice_b24e = bit_abeb ? {magnitude_98da, 2'd0} : {2'd0, magnitude_98da}; // u25.11
-    wire bit_72b6 = ($signed({{2{inwards_q[22]}}, inwards_q, 1'd0}) < $signed({1'd0, choice_b24e})) & ($signed(26'd205) < $signed({1'd0, choice_b24e})); // u1.0
+    wire [22:0] magnitude_b4a7 = tangential[22] ? 23'd0 - tangential : tangential; // u23.11
+    wire [24:0] choice_c1d3 = bit_abeb ? {magnitude_b4a7, 2'd0} : {2'd0, magnitude_b4a7}; // u25.11
+    wire bit_b6ce = ($signed({{2{normal[22]}}, normal, 1'd0}) < $signed({1'd0, choice_c1d3})) & ($signed(26'd205) < $signed({1'd0, choice_c1d3})); // u1.0
     wire signed [22:0] u_minus_offset = {{3{u[12]}}, u, 7'd0} - {{1{offset[21]}}, offset}; // s23.20
     wire [29:0] sum_0_plus_friction = 30'd0 + {6'd0, friction, 3'd0}; // u30.24
     wire [29:0] sum_a5b9 = {1'd0, sum_0_plus_friction[28:0]} + {5'd0, friction, 4'd0}; // u30.24
@@ -168,7 +168,7 @@ module hapticore_loop_wall (
     wire [28:0] choice_c3a8 = free_q ? sum_a5b9[28:0] : 29'd0; // u29.24
     wire [29:0] choice_11e2 = less_df3e ? {1'd0, choice_c3a8} : {choice_c3a8, 1'd0}; // u30.17
     wire [21:0] rounded_3 = {1'b0, choice_11e2[29:9]} + {21'd0, choice_11e2[8] & (choice_11e2[9] | (|choice_11e2[7:0]))};
-    wire bit_ee03 = ($signed(24'd410) < $signed({1'd0, inwards_q[22] ? 23'd0 - inwards_q : inwards_q})) | ($signed(24'd410) < $signed({1'd0, magnitude_98da})); // u1.0
+    wire bit_5888 = ($signed(24'd410) < $signed({1'd0, normal[22] ? 23'd0 - normal : normal})) | ($signed(24'd410) < $signed({1'd0, magnitude_b4a7})); // u1.0
     wire bit_280a = other_free & (~other_free_q); // u1.0
     wire signed [23:0] along_minus_410 = {{2{along_q[21]}}, along_q} - 24'd410; // s24.11
     wire signed [24:0] difference_f318 = {{1{anchor[21]}}, anchor, 2'd0} - {{3{anchor[21]}}, anchor}; // s25.11
@@ -326,8 +326,8 @@ module hapticore_loop_wall (
             any <= 1'd0;
             reads <= 1'd0;
             moved <= 13'd0;
-            inwards_q <= 23'd0;
-            along_q_2 <= 23'd0;
+            normal <= 23'd0;
+            tangential <= 23'd0;
             slides <= 1'd0;
             offset <= 22'd0;
             friction <= 21'd0;
@@ -449,11 +449,11 @@ module hapticore_loop_wall (
                         moved <= magnitude_c058[12:0];
                     end else if (step_is_learn) begin
                         if (bit_280a) begin
-                            inwards_q <= 23'd0;
-                            along_q_2 <= 23'd410;
+                            normal <= 23'd0;
+                            tangential <= 23'd410;
                         end else begin
-                            inwards_q <= {{1{anchor[21]}}, anchor} - {{1{filtered[21]}}, filtered};
-                            along_q_2 <= {{1{along_q[21]}}, along_q} - {{1{anchor_along[21]}}, anchor_along};
+                            normal <= {{1{anchor[21]}}, anchor} - {{1{filtered[21]}}, filtered};
+                            tangential <= {{1{along_q[21]}}, along_q} - {{1{anchor_along[21]}}, anchor_along};
                         end
                         if (bit_48b3) begin
                             change <= sum_8c73[24:6] + {18'd0, sum_8c73[5] & (sum_8c73[6] | (|sum_8c73[4:0]))};
@@ -474,14 +474,14 @@ module hapticore_loop_wall (
                             anchor <= filtered;
                             anchor_along <=
                                 (along_minus_410[23:21] == {3{along_minus_410[23]}}) ? along_minus_410[21:0] : {along_minus_410[23], {21{~along_minus_410[23]}}};
-                        end else if (bit_ee03) begin
+                        end else if (bit_5888) begin
                             anchor <= sum_6bdc[23:2] + {21'd0, sum_6bdc[1] & (sum_6bdc[2] | sum_6bdc[0])};
                             anchor_along <= sum_3b37[23:2] + {21'd0, sum_3b37[1] & (sum_3b37[2] | sum_3b37[0])};
                         end
                     end else if (step_is_weigh) begin
-                        turned <= bit_abeb & bit_72b6;
+                        turned <= bit_abeb & bit_b6ce;
                         since <= choice_b656[6:0];
-                        slides <= bit_72b6;
+                        slides <= bit_b6ce;
                         y <=
                             reads ? ((rounded_2[19:10] == {10{rounded_2[19]}}) ? rounded_2[10:0] : {rounded_2[19], {10{~rounded_2[19]}}})
                             : 11'd0;

@@ -31,12 +31,12 @@ impl Wall {
     #[inline(always)]
     pub(super) fn moved<V: Interpretation>(&self, r: Regs<V>, i: In<V>) -> Regs<V> {
         let way = |way: Signal<V>| way.resize(self.motion(), Proved);
-        let inwards = way(r.kept.anchor - r.kept.filtered);
-        let along = way(r.kept.along - r.kept.anchor_along);
+        let normal = way(r.kept.anchor - r.kept.filtered);
+        let tangential = way(r.kept.along - r.kept.anchor_along);
         let turns = turns(&r.kept, &i);
         Registers {
-            inwards: turns.select(zero(inwards.format), inwards),
-            along: turns.select(self.play(1.0), along),
+            normal: turns.select(zero(normal.format), normal),
+            tangential: turns.select(self.play(1.0), tangential),
             ..r
         }
     }
@@ -45,7 +45,7 @@ impl Wall {
     #[inline(always)]
     pub(super) fn led<V: Interpretation>(&self, r: Regs<V>, i: In<V>) -> Regs<V> {
         let play = self.play::<V>(1.0);
-        let is_far = play.less_than(r.inwards.abs()) | play.less_than(r.along.abs());
+        let is_far = play.less_than(r.normal.abs()) | play.less_than(r.tangential.abs());
         let follow = |anchor: Signal<V>, place: Signal<V>| {
             is_far.select(filtered(anchor, place, 2, anchor.format), anchor)
         };
@@ -63,13 +63,13 @@ impl Wall {
     /// Whether the way is along the surface.
     #[inline(always)]
     pub(super) fn judged<V: Interpretation>(&self, r: Regs<V>, i: In<V>) -> Regs<V> {
-        let (least, inwards) = (self.play::<V>(0.5), r.inwards.scaled(1));
+        let (least, normal) = (self.play::<V>(0.5), r.normal.scaled(1));
         let turned = i.other_free | r.kept.turned;
-        let along = r.along.abs();
-        let wide = Format::unsigned(along.format.width + 2, along.format.frac);
-        let [far, near] = [along.scaled(2), along].map(|along| along.resize(wide, Proved));
-        let along = turned.select(far, near);
-        let slides = inwards.less_than(along) & least.less_than(along);
+        let tangential = r.tangential.abs();
+        let wide = Format::unsigned(tangential.format.width + 2, tangential.format.frac);
+        let [far, near] = [tangential.scaled(2), tangential].map(|way| way.resize(wide, Proved));
+        let tangential = turned.select(far, near);
+        let slides = normal.less_than(tangential) & least.less_than(tangential);
         Registers { slides, kept: Kept { turned: turned & slides, ..r.kept }, ..r }
     }
 
