@@ -24,8 +24,12 @@ pub const MOST_BYTES: u64 = 1 << 22;
 /// It cannot be read, is no text, or is longer than [`MOST_BYTES`].
 pub fn read(path: &Path) -> Result<String, ReadError> {
     let mut text = String::new();
+    let no_text = |error: io::Error| match error.kind() {
+        io::ErrorKind::InvalidData => io::Error::other("expected text (UTF-8), got other bytes"),
+        _ => error,
+    };
     File::open(path)
-        .and_then(|file| file.take(MOST_BYTES + 1).read_to_string(&mut text))
+        .and_then(|file| file.take(MOST_BYTES + 1).read_to_string(&mut text).map_err(no_text))
         .and_then(|bytes| match bytes as u64 > MOST_BYTES {
             true => Err(io::Error::other(format!("expected a text of at most {MOST_BYTES} bytes"))),
             false => Ok(text),

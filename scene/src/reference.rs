@@ -119,7 +119,7 @@ pub static SECTIONS: &[Section] = &[
     table("carrier", "Sensing carrier and wave of the haptic voltage; always present.", &[carrier::KEYS, device::CARRIER_KEYS, wave::KEYS]),
     table("sensor", "Sensor chain: full scales of the device, and errors, each switched on by its key.", &[device::FULL_SCALE_KEYS, sensor::KEYS]),
     table("control", "Force controller around the pads, whose `target_n` takes the place of `haptic_v_rms`.", &[control::KEYS]),
-    table("wall", "Virtual walls in the core, which the force controller makes felt.", &[wall::KEYS]),
+    table("wall", "Virtual walls in the core, which the force controller makes felt; with `[control]` and `[halves]`.", &[wall::KEYS]),
     table("arena", "Table of air hockey that the run's host plays; the pads are mallets.", &[arena::KEYS]),
     tables("case", "A variant of the scene; one named `main` where there is none.", &[variant::KEYS, variant::SET_KEYS]),
     table("calibration", "The device as it was calibrated, where it has changed since.", &[variant::SET_KEYS]),
@@ -162,6 +162,26 @@ pub fn section(path: &str) -> Option<&'static Section> {
     SECTIONS.iter().find(|section| section.path == path)
 }
 
+/// What is said of a path that nothing in a scene reads, where it means something: what it needs, or where it belongs.
+pub(crate) fn elsewhere(path: &str) -> Option<String> {
+    let says = key(path).map(|(_, key)| key.says()).or_else(|| Some(section(path)?.says));
+    if let Some(says) = says {
+        return Some(format!("without effect in this scene. What it is for: {says}"));
+    }
+    let name = path.rsplit('.').next().unwrap_or_default();
+    let places: Vec<_> =
+        SECTIONS.iter().filter_map(|table| Some((table, table.key(name)?))).collect();
+    let of_own =
+        |table: &Section| !["stimulus", "pad."].iter().any(|form| table.path.starts_with(form));
+    let (table, _) = places.into_iter().find(|(table, _)| of_own(table))?;
+    let at = match (table.path, table.is_list) {
+        ("", _) => format!("a key of the scene, above its first table: {name}"),
+        (path, true) => format!("a key of [[{path}]]: {path}.0.{name}"),
+        (path, false) => format!("a key of [{path}]: {path}.{name}"),
+    };
+    Some(format!("expected elsewhere, {at}"))
+}
+
 /// The keys of a read scene that are not declared, by their dotted paths: none, or a declaration is missing.
 pub(crate) fn undeclared(asked: Vec<String>) -> Vec<String> {
     let is_declared = |path: &String| {
@@ -175,8 +195,8 @@ pub(crate) fn undeclared(asked: Vec<String>) -> Vec<String> {
 
 /// Units by the ends of names.
 #[rustfmt::skip]
-const UNITS: [(&str, &str); 41] = [
-    ("_na_per_rthz", "nA/√Hz"), ("_percent_per_k", "%/K"), ("_ppm_per_k", "ppm/K"), ("_per_square", "Ω"), ("nanofarad_per_m2", "nF/m²"),
+const UNITS: [(&str, &str); 44] = [
+    ("force_k", "N/(F·V)²"), ("_na_per_rthz", "nA/√Hz"), ("_percent_per_k", "%/K"), ("_ppm_per_k", "ppm/K"), ("_per_square", "Ω"), ("nanofarad_per_m2", "nF/m²"),
     ("_n_s_per_m", "N·s/m"), ("_n_per_mm", "N/mm"), ("_n_per_m", "N/m"), ("_pa_per_m", "Pa/m"), ("_mm_per_s", "mm/s"),
     ("_kg_m2", "kg/m²"), ("_m_s2", "m/s²"), ("_mm_s", "mm/s"), ("_pa_s", "Pa·s"), ("_v_rms", "V RMS"),
     ("_ns_rms", "ns RMS"), ("_ppm_rms", "ppm RMS"), ("_lsb_rms", "LSB RMS"), ("_percent", "%"), ("_kohm", "kΩ"),
@@ -184,12 +204,17 @@ const UNITS: [(&str, &str); 41] = [
     ("_mv", "mV"), ("_ma", "mA"), ("_mh", "mH"), ("_mm", "mm"), ("_ms", "ms"),
     ("_um", "µm"), ("_us", "µs"), ("_pf", "pF"), ("_kg", "kg"), ("_pa", "Pa"),
     ("_v", "V"), ("_h", "H"), ("_n", "N"), ("_g", "g"), ("_k", "K"),
-    ("_s", "s"),
+    ("_s", "s"), ("_mn", "mN"), ("_a", "A"),
 ];
 
 impl KeyInfo {
     /// The unit that its name ends with.
     pub fn unit(&self) -> Option<&'static str> {
-        UNITS.iter().find(|(end, _)| self.name.ends_with(end)).map(|(_, unit)| *unit)
+        unit(self.name)
     }
+}
+
+/// The unit that a name ends with, of a scene's key or another file's.
+pub fn unit(name: &str) -> Option<&'static str> {
+    UNITS.iter().find(|(end, _)| name.ends_with(end)).map(|(_, unit)| *unit)
 }

@@ -93,7 +93,7 @@ impl Scene {
         let mut case = Case::read(tree, name)?;
         if let Some(then) = calibrated(tree)? {
             let then_case = Case::read(&then, name)?;
-            then.refuse_unknown()?;
+            then.refuse_unknown(reference::elsewhere)?;
             let [now, before] = [&case, &then_case].map(|case| case.device.terminals());
             if now != before {
                 let message =
@@ -103,7 +103,7 @@ impl Scene {
             case.nominal.clone_from(&then_case.nominal);
             case.calibrated = Some(Box::new(then_case));
         }
-        tree.refuse_unknown()?;
+        tree.refuse_unknown(reference::elsewhere)?;
         debug_assert_eq!(reference::undeclared(tree.asked()), Vec::<String>::new());
         Ok(case)
     }

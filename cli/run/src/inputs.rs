@@ -3,6 +3,7 @@
 
 use std::path::Path;
 
+use crate::capture;
 use anyhow::{Context, Result, anyhow};
 use hapticore_contract::profile::{BUNDLED, Profile};
 use hapticore_host::profile::{load, looks_like_a_file};
@@ -22,6 +23,9 @@ pub fn scene(name: &str, set: &[(String, String)]) -> Result<Scene> {
 }
 
 fn scene_file(name: &str) -> Result<String> {
+    if capture::is_named_as_one(Path::new(name)) {
+        return Err(anyhow!("{name}: expected a scene, got a capture: hapticore replay {name}"));
+    }
     if looks_like_a_file(name) {
         return Ok(read(Path::new(name))?);
     }

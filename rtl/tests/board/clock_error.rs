@@ -7,6 +7,7 @@ use crate::pins::Host;
 use crate::random::Random;
 use crate::session::{Session, parameters, samples, simulated, small};
 use hapticore_contract::profile::Profile;
+use hapticore_host::Command;
 use hapticore_host::startup::start;
 use hapticore_rtl::board::uart::BitClocks;
 use hapticore_rtl::board::uart::receiver::{self, Receiver};
@@ -96,11 +97,14 @@ fn bits_of_unequal_clocks_cross_the_line_with_a_clock_two_percent_off() {
 fn a_line_of_three_megabaud_carries_every_slot_of_the_profile_fast() {
     let profile = Profile::bundled("fast").expect("a bundled profile");
     let (calibration, samples) = (calibration(&profile), samples(&profile, 12));
+    // No frame's length depends on its content: a part of the table does, in whose time the ADC is ready.
+    let is_early = |command: &Command| !matches!(command, Command::Table { address: 200.., .. });
+    let start: Vec<_> = start(&profile, &calibration).into_iter().filter(is_early).collect();
     let dropped = [1_000_000, 3_000_000].map(|baud| {
         let parameters = Parameters { clock_hz: 25_000_000, baud, sclk_latency: 2, drive: None };
         let mut session = Session::new(&profile, parameters, &samples);
         session.host = Host::with_bit(25_000_000.0 / baud as f64);
-        session.send(&start(&profile, &calibration));
+        session.send(&start);
         let packets = session.packets(6);
         packets.windows(2).filter(|of| of[1].status.sequence != of[0].status.sequence + 1).count()
     });

@@ -32,11 +32,9 @@ pub(crate) fn apply(root: &mut Table, key: &str, node: Node) -> Result<(), Scene
             return Err(fail("expected a key such as sheet.terminal_ohm".into()));
         }
         if parts.peek().is_none() {
-            return here.put(part, node).ok_or_else(|| fail(format!("there is no {part} here")));
+            return here.put(part, node).map_err(fail);
         }
-        here = here
-            .enter(part, &place)
-            .ok_or_else(|| fail(format!("there is no {part} that could be entered")))?;
+        here = here.enter(part, &place).map_err(&fail)?;
     }
     Ok(())
 }
@@ -47,7 +45,7 @@ enum Step<'a> {
 }
 
 impl<'a> Step<'a> {
-    fn enter(self, part: &str, place: &Place) -> Option<Step<'a>> {
+    fn enter(self, part: &str, place: &Place) -> Result<Step<'a>, String> {
         let node = match self {
             Step::Table(table) => {
                 let path = join(table.path(), part);
@@ -62,23 +60,26 @@ impl<'a> Step<'a> {
             node.value = Value::Table(Table::new(part, place.clone()));
         }
         match &mut node.value {
-            Value::Table(table) => Some(Step::Table(table)),
-            Value::List(list) => Some(Step::List(list)),
-            _ => None,
+            Value::Table(table) => Ok(Step::Table(table)),
+            Value::List(list) => Ok(Step::List(list)),
+            other => Err(format!("expected a table {part}, whose key could be set, got {other}")),
         }
     }
 
-    fn put(self, part: &str, node: Node) -> Option<()> {
+    fn put(self, part: &str, node: Node) -> Result<(), String> {
         match self {
             Step::Table(table) => table.merge(part, node),
             Step::List(list) => *find(list, part)? = node,
         }
-        Some(())
+        Ok(())
     }
 }
 
-fn find<'a>(list: &'a mut [Node], part: &str) -> Option<&'a mut Node> {
+/// An entry of a list, by its number or its name.
+fn find<'a>(list: &'a mut [Node], part: &str) -> Result<&'a mut Node, String> {
     let named = |node: &Node| matches!(&node.value, Value::Table(table) if table.is_named(part));
-    let index = part.parse().ok().or_else(|| list.iter().position(named))?;
-    list.get_mut(index)
+    let index = part.parse().ok().or_else(|| list.iter().position(named));
+    let last = list.len().saturating_sub(1);
+    let entry = index.and_then(|index| list.get_mut(index));
+    entry.ok_or_else(|| format!("expected an entry's number, 0 to {last}, or its name, got {part}"))
 }

@@ -4,7 +4,7 @@
 
 use super::kind::Kind;
 use super::limits::Limits;
-use super::tree::{Table, Value};
+use super::tree::{Table, Value, join};
 use crate::error::{Place, SceneError};
 use crate::suggest::did_you_mean;
 
@@ -97,9 +97,9 @@ impl Table {
     }
 
     /// The first key, by line, that was not asked for is an error; so in every table below that was
-    /// read.
-    pub fn refuse_unknown(&self) -> Result<()> {
-        match self.unknown().into_iter().min_by_key(|error| match error.place {
+    /// read. `known_elsewhere` says of a dotted path why it is not read here, if it means something.
+    pub fn refuse_unknown(&self, known_elsewhere: Elsewhere) -> Result<()> {
+        match self.unknown(known_elsewhere).into_iter().min_by_key(|error| match error.place {
             Place::Override => 0,
             Place::Line(line) => line,
             Place::File => usize::MAX,
@@ -109,7 +109,7 @@ impl Table {
         }
     }
 
-    fn unknown(&self) -> Vec<SceneError> {
+    fn unknown(&self, known_elsewhere: Elsewhere) -> Vec<SceneError> {
         let mut errors = Vec::new();
         for (key, (node, used)) in &self.entries {
             match &node.value {
@@ -121,24 +121,32 @@ impl Table {
                             self.error(key, format!("expected {known}, since a key names its unit"))
                         }
                         None => {
-                            let near = did_you_mean(key, known.iter().copied());
-                            let known = quoted(&known);
-                            self.error(key, format!("unknown key, expected one of {known}{near}"))
+                            let message = known_elsewhere(&join(self.path(), key));
+                            self.error(key, message.unwrap_or_else(|| unknown(key, &known)))
                         }
                     });
                 }
-                Value::Table(table) => errors.extend(table.unknown()),
+                Value::Table(table) => errors.extend(table.unknown(known_elsewhere)),
                 Value::List(list) => {
                     let tables = list.iter().filter_map(|item| {
                         if let Value::Table(t) = &item.value { Some(t) } else { None }
                     });
-                    errors.extend(tables.flat_map(Table::unknown));
+                    errors.extend(tables.flat_map(|table| table.unknown(known_elsewhere)));
                 }
                 _ => {}
             }
         }
         errors
     }
+}
+
+/// What is said of a key, by its dotted path, that is none of its table's but means something: where it belongs, or what it
+/// needs.
+pub(crate) type Elsewhere = fn(&str) -> Option<String>;
+
+fn unknown(key: &str, known: &[&str]) -> String {
+    let near = did_you_mean(key, known.iter().copied());
+    format!("unknown key, expected one of {}{near}", quoted(known))
 }
 
 /// Whether `given` is `known` without the unit that it ends with, as `load` is of `load_g`.

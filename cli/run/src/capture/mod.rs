@@ -45,11 +45,22 @@ fn kind(path: &Path) -> Result<Kind> {
                 path.display()
             )
         }
-        _ => bail!(
-            "{}: expected a capture whose name ends in .csv or .wav (or .sigmf-meta)",
-            path.display()
-        ),
+        _ => {
+            let file = path.display();
+            let scene = match path.extension().is_none_or(|extension| extension == "toml") {
+                true => format!("; for a scene: hapticore simulate {file}"),
+                false => String::new(),
+            };
+            bail!(
+                "{file}: expected a capture whose name ends in .csv or .wav (or .sigmf-meta){scene}"
+            )
+        }
     }
+}
+
+/// Whether a file has the name of a capture.
+pub fn is_named_as_one(path: &Path) -> bool {
+    kind(path).is_ok()
 }
 
 /// The content of a capture's files, by kind.
