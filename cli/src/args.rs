@@ -420,6 +420,7 @@ const REFERENCE: &str = "Examples:
   hapticore reference wall                  # a table, as gap, pad, pad.position_mm or stimulus
   hapticore reference gap.rung              # a key; a name without a table finds it in all tables
   hapticore reference criteria              # measures; columns: quantities and columns
+  hapticore reference profile               # also calibration; messages: of the live page
   hapticore reference --schema > scene.schema.json
 
 An editor with a TOML language server takes the schema by a first line \"#:schema ./scene.schema.json\" of the scene.
@@ -429,7 +430,8 @@ Exit status: 0 done, 2 bad input.";
 /// Arguments of `reference`.
 #[derive(Debug, clap::Args)]
 pub struct ReferenceArgs {
-    /// A table or a key: wall, wall.force_n, force_n; or columns, criteria [default: all tables]
+    /// A table or a key of scenes: wall, wall.force_n, force_n; or scene, columns, criteria, profile, calibration, messages
+    /// [default: scene]
     pub key: Option<String>,
     /// Print it as JSON
     #[arg(long, conflicts_with_all = ["markdown", "schema"])]
@@ -437,8 +439,8 @@ pub struct ReferenceArgs {
     /// Print it as Markdown
     #[arg(long, conflicts_with = "schema")]
     pub markdown: bool,
-    /// Print a JSON Schema of scenes, for editors
-    #[arg(long, conflicts_with = "key")]
+    /// Print a JSON Schema, for editors: of scenes, or with profile, calibration, messages of those
+    #[arg(long)]
     pub schema: bool,
 }
 

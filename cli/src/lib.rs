@@ -7,6 +7,7 @@
 //! | [`simulate`], [`replay`], [`hdl`], [`codes`](mod@codes), [`calibrate`], [`tradeoff`], [`sweep`], [`scenes`], [`mod@reference`], [`new`], [`live`], [`host`] | one command each |
 //! | [`output`], [`print`](mod@print), [`report`] | what a run leaves: a folder of files, lines on the terminal, a page of figures |
 //! | [`waves`] | waveforms of a case |
+//! | `completion` | candidates for a shell |
 //! | [`folder`], [`console`], [`progress`] | which folder; standard output that may be closed; how far a run is |
 //!
 //! Running itself is `hapticore-run`'s.
@@ -14,6 +15,7 @@
 pub mod args;
 pub mod calibrate;
 pub mod codes;
+mod completion;
 pub mod console;
 pub mod control_words;
 pub mod folder;
@@ -44,6 +46,7 @@ use hapticore_run::interrupt;
 /// Runs the command line. The exit code is 0 where all criteria hold, 1 where one fails, 2 on bad
 /// input, and 130 where the run was told to stop.
 pub fn main() -> ExitCode {
+    completion::complete();
     let args = Args::parse();
     interrupt::listen();
     let outcome = match args.command {

@@ -41,7 +41,7 @@ pub fn text(kind: NewKind) -> String {
                 BUNDLED.iter().find(|(name, _)| *name == "standard").expect("bundled");
             let own = standard.replace("name = \"standard\"", "name = \"mine\"");
             format!(
-                "# Keys: docs/formats.md#profile-toml; what each bit costs: hapticore tradeoff --profile FILE\n{own}"
+                "# Keys: hapticore reference profile; what each bit costs: hapticore tradeoff --profile FILE\n{own}"
             )
         }
     }

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `hapticore reference`: every table and key that a scene may have, quantities and measures, as they are declared.
+//! `hapticore reference`: every table and key of scenes, profiles and calibrations, quantities, measures and messages, as they
+//! are declared.
 //!
 //! The same parts are printed as text, as JSON and as Markdown; `docs/guide/reference/` holds the last.
 
+mod declared;
 mod schema;
 
 use std::fmt::Write as _;
@@ -16,7 +18,7 @@ use crate::args::ReferenceArgs;
 use crate::{console, print, say};
 
 /// The pages of `docs/guide/reference/`: name, title, what it is about.
-pub const PAGES: [(&str, &str, &str); 3] = [
+pub const PAGES: [(&str, &str, &str); 6] = [
     (
         "scene",
         "Scene: tables and keys",
@@ -35,12 +37,31 @@ pub const PAGES: [(&str, &str, &str); 3] = [
         "Measures of criteria",
         "What `measure` of a `[[criterion]]` may be, taken over the slots that the criterion covers.",
     ),
+    (
+        "profile",
+        "Profile: tables and keys",
+        "A profile is TOML: every width, count and time of a core. `hapticore new profile FILE` writes one to start from. A format \
+         such as `s18.17` is signed or unsigned (`u`), with its width and its fractional bits. Values are checked \
+         against each other, too: a message names the key. `[control]` and `[wall]` may be left out.",
+    ),
+    (
+        "calibration",
+        "Calibration: tables and keys",
+        "Two files of TOML: the calibration of a device, which `simulate --capture` and `calibrate` write and `replay`, `codes` \
+         and `host` read, and the set-up that `calibrate` reads.",
+    ),
+    (
+        "messages",
+        "Messages of the live page",
+        "JSON texts over the WebSocket `/ws` of `hapticore live` and `hapticore host --page`: see `docs/live.md` for the order of \
+         events. `type` names the message. A command takes an `id` besides, which its answer repeats.",
+    ),
 ];
 
 /// A table of what is declared.
 struct Part {
     heading: String,
-    says: &'static str,
+    says: String,
     head: &'static [&'static str],
     rows: Vec<Vec<String>>,
 }
@@ -52,7 +73,7 @@ struct Part {
 pub fn run(args: &ReferenceArgs) -> Result<bool> {
     let topic = args.key.as_deref().unwrap_or("scene");
     if args.schema {
-        say!("{}", serde_json::to_string_pretty(&schema::of_scenes())?);
+        say!("{}", serde_json::to_string_pretty(&schema_of(topic)?)?);
     } else if args.markdown {
         console::print(format_args!("{}", markdown(topic)?));
     } else if args.json {
@@ -63,6 +84,21 @@ pub fn run(args: &ReferenceArgs) -> Result<bool> {
         console::print(format_args!("{}", parts.join("\n")));
     }
     Ok(true)
+}
+
+/// The schema of a topic that is a file.
+fn schema_of(topic: &str) -> Result<Value> {
+    let declared = declared::schemas(topic);
+    match (topic, &declared[..]) {
+        ("scene", _) => Ok(schema::of_scenes()),
+        (_, [(_, schema)]) => Ok(schema.clone()),
+        (_, []) => Err(anyhow!(
+            "expected scene, profile, calibration or messages with --schema, got \"{topic}\""
+        )),
+        (_, several) => {
+            Ok(several.iter().map(|(name, schema)| (name.to_string(), schema.clone())).collect())
+        }
+    }
 }
 
 /// What is asked for as a page of Markdown.
@@ -90,6 +126,7 @@ fn parts(topic: &str) -> Result<Vec<Part>> {
         "scene" => return Ok(SECTIONS.iter().map(|table| of_table(table, table.keys())).collect()),
         "columns" => return Ok(vec![columns()]),
         "criteria" => return Ok(vec![criteria()]),
+        "profile" | "calibration" | "messages" => return Ok(declared::parts(topic)),
         _ => {}
     }
     let path = topic.trim_matches(['[', ']']);
@@ -115,7 +152,8 @@ fn unknown(path: &str) -> anyhow::Error {
     let tables = SECTIONS.iter().map(|table| table.path);
     let near = did_you_mean(name, names.chain(tables));
     anyhow!(
-        "expected a table or a key of scenes, \"columns\" or \"criteria\", got \"{path}\"{near}"
+        "expected a table or a key of scenes, \"scene\", \"columns\", \"criteria\", \"profile\", \"calibration\" or \
+         \"messages\", got \"{path}\"{near}"
     )
 }
 
@@ -131,7 +169,7 @@ fn of_table(table: &Section, keys: impl IntoIterator<Item = &'static KeyInfo>) -
     };
     Part {
         heading: table.heading(),
-        says: table.says,
+        says: table.says.to_string(),
         head: &["key", "unit", "default", "values", "meaning"],
         rows: keys.into_iter().map(row).collect(),
     }
@@ -149,7 +187,7 @@ fn columns() -> Part {
     };
     Part {
         heading: "quantities".into(),
-        says: "In the order of columns.",
+        says: "In the order of columns.".into(),
         head: &["quantity", "unit", "truth", "of", "meaning"],
         rows: Quantity::all().map(row).collect(),
     }
@@ -163,7 +201,7 @@ fn criteria() -> Part {
     };
     Part {
         heading: "measures".into(),
-        says: "The measure must be at most `limit`.",
+        says: "The measure must be at most `limit`.".into(),
         head: &["measure", "unit", "meaning"],
         rows: Measure::all().map(row).collect(),
     }
@@ -194,6 +232,9 @@ impl Part {
     }
 
     fn markdown(&self) -> String {
+        if self.rows.is_empty() {
+            return format!("## {}\n\n{}\n", self.heading, self.says);
+        }
         let mut text =
             format!("## {}\n\n{}\n\n| {} |\n|", self.heading, self.says, self.head.join(" | "));
         text += &" --- |".repeat(self.head.len());

@@ -42,6 +42,9 @@ mod columns;
 mod request;
 mod state;
 
+use std::collections::BTreeMap;
+
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize, Serializer};
 
 pub use columns::{COLUMNS, Column, PadRow};
@@ -61,7 +64,7 @@ pub const MOST_SLOTS: usize = 10_000;
 pub const SPEEDS: [f64; 2] = [0.001, 10.0];
 
 /// What a client asks for.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[serde(tag = "type", rename_all = "snake_case")]
 pub enum Command {
     /// Leads the finger, or a pad without hand.
@@ -70,7 +73,7 @@ pub enum Command {
         pad: usize,
         /// Where it goes, mm right of the sheet's centre and above it.
         mm: [f64; 2],
-        /// After which time it arrives, s; none for [`GLIDE_S`](crate::simulated::GLIDE_S).
+        /// After which time it arrives, s; none: 0.012.
         #[serde(skip_serializing_if = "Option::is_none")]
         within_s: Option<f64>,
     },
@@ -104,6 +107,7 @@ pub enum Command {
         y_mm: Option<f64>,
         /// Takes the walls away.
         #[serde(skip_serializing_if = "std::ops::Not::not")]
+        #[schemars(default)]
         off: bool,
     },
     /// Serves a new puck, where the scene has an arena.
@@ -126,7 +130,8 @@ pub enum Command {
     },
     /// Runs slots, then lets time stand.
     Step {
-        /// How many, up to [`MOST_SLOTS`].
+        /// How many.
+        #[schemars(range(min = 1, max = MOST_SLOTS))]
         slots: usize,
     },
     /// Asks for the ADC codes of the last slot.
@@ -143,7 +148,7 @@ pub enum Command {
 }
 
 /// An input of a pad, and its value.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Setting {
     /// Load, g.
@@ -159,7 +164,7 @@ pub enum Setting {
 }
 
 /// What `record` does.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Recording {
     /// Starts the scene anew.
@@ -171,12 +176,13 @@ pub enum Recording {
 }
 
 /// The scene that a source simulates.
-#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, JsonSchema)]
 pub struct Opening {
     /// A bundled scene.
     pub scene: String,
     /// Keys and values as in `--set KEY=VALUE`.
     #[serde(skip_serializing_if = "Vec::is_empty", serialize_with = "as_map")]
+    #[schemars(with = "Option<BTreeMap<String, String>>")]
     pub set: Vec<(String, String)>,
     /// Number or name of the case; none for the first.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -195,9 +201,9 @@ fn as_map<S: Serializer>(set: &[(String, String)], serializer: S) -> Result<S::O
 }
 
 /// Which columns of every slot a client wants.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Subscription {
-    /// Names among [`crate::rows::names`].
+    /// Names of columns, at least one.
     pub columns: Vec<String>,
     /// `slot`, or `frame` for none.
     pub every: Every,
@@ -207,7 +213,7 @@ pub struct Subscription {
 }
 
 /// How often rows are sent.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Every {
     /// Each slot, several in one message.
@@ -217,7 +223,7 @@ pub enum Every {
 }
 
 /// How rows are sent.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Format {
     /// As `rows`.
@@ -228,7 +234,7 @@ pub enum Format {
 }
 
 /// What a server sends.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[serde(tag = "type", rename_all = "snake_case")]
 pub enum Answer {
     /// All that does not change.
@@ -280,9 +286,9 @@ impl Answer {
 }
 
 /// All that does not change of a source.
-#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, JsonSchema)]
 pub struct Hello {
-    /// [`VERSION`].
+    /// Version of the protocol.
     pub protocol: u32,
     /// Version of the program.
     pub version: String,
@@ -308,6 +314,7 @@ pub struct Hello {
     pub fidelity: String,
     /// What the scene was opened with: keys and values as in `--set KEY=VALUE`.
     #[serde(serialize_with = "as_map")]
+    #[schemars(with = "BTreeMap<String, String>")]
     pub set: Vec<(String, String)>,
     /// The command that runs the same scene without a page.
     pub command: String,
@@ -325,7 +332,8 @@ pub struct Hello {
     pub pad_diameter_mm: f64,
     /// Where the terminals are, mm from the sheet's centre.
     pub terminals_mm: Vec<[f64; 2]>,
-    /// Columns of `frames.pads` that have a unit.
+    /// Columns of `frames.pads` that have a unit: `name`, `unit` and `label` of each.
+    #[schemars(with = "Vec<BTreeMap<String, String>>")]
     pub columns: Vec<Column>,
     /// Inputs of each pad.
     pub inputs: Vec<InputInfo>,
@@ -355,7 +363,7 @@ pub struct Hello {
 }
 
 /// A scene with something to try.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Preset {
     /// In an address: `?preset=wall`.
     pub name: &'static str,
@@ -369,7 +377,7 @@ pub struct Preset {
 }
 
 /// A pad.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Pad {
     /// Its name.
     pub name: String,
@@ -378,7 +386,7 @@ pub struct Pad {
 }
 
 /// An input of each pad.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct InputInfo {
     /// `pad.` and the key of `set`.
     pub name: &'static str,
@@ -397,7 +405,7 @@ pub struct InputInfo {
 }
 
 /// A key of the scene that is worth changing.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct SettingInfo {
     /// The key, as in `--set`.
     pub key: &'static str,
@@ -414,7 +422,7 @@ pub struct SettingInfo {
 }
 
 /// A wall.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Wall {
     /// `x` or `y`: the axis that it lies across.
     pub axis: &'static str,
@@ -425,7 +433,7 @@ pub struct Wall {
 }
 
 /// A table of air hockey, whose mallets are the pads. Its centre is the sheet's.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Arena {
     /// Half of its length and of its height, mm.
     pub half_mm: [f64; 2],
@@ -440,7 +448,7 @@ pub struct Arena {
 }
 
 /// The puck and the score.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct Game {
     /// Where the puck is, mm right of the sheet's centre and above it.
     pub puck_mm: [f64; 2],
@@ -451,7 +459,7 @@ pub struct Game {
 }
 
 /// What a scene allows.
-#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, JsonSchema)]
 pub struct Limits {
     /// Error of a position, mm.
     pub position_mm: Option<f64>,
@@ -462,7 +470,7 @@ pub struct Limits {
 }
 
 /// The latest frame of each pad.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Frames {
     /// Number of the next slot.
     pub slot: usize,
@@ -470,6 +478,7 @@ pub struct Frames {
     pub time_s: f64,
     /// A row of each pad that has had a frame; sent as columns.
     #[serde(serialize_with = "columns::as_columns")]
+    #[schemars(with = "BTreeMap<String, Vec<Option<f64>>>")]
     pub pads: Vec<PadRow>,
     /// Amplitudes of the terminals' currents in the last slot, as fractions of full scale.
     pub terminals: Vec<f64>,
@@ -483,7 +492,7 @@ pub struct Frames {
 }
 
 /// How the source keeps up.
-#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, JsonSchema)]
 pub struct Status {
     /// Device time by wall time, as reached in the last second.
     pub speed: f64,
@@ -511,7 +520,7 @@ pub struct Status {
 }
 
 /// The line to a board.
-#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, JsonSchema)]
 pub struct LineStatus {
     /// Its name.
     pub name: String,
@@ -534,7 +543,7 @@ pub struct LineStatus {
 }
 
 /// A pad changes its state.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Event {
     /// When, s of device time.
     pub time_s: f64,
@@ -547,7 +556,7 @@ pub struct Event {
 }
 
 /// The ADC codes of a slot's window.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct SlotCodes {
     /// Number of the slot.
     pub slot: usize,
@@ -564,7 +573,7 @@ pub struct SlotCodes {
 }
 
 /// A recording.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Recorded {
     /// `scene` or `log`.
     pub format: Recording,

@@ -11,6 +11,7 @@
 
 use hapticore_contract::calibration::ForceTable;
 use hapticore_contract::profile::Profile;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::Scales;
@@ -26,7 +27,7 @@ use super::Scales;
 /// assert_eq!(force.factor(500.0, 300.0, 300.0), 1.0 + 300.0 * 2e-4);
 /// # Ok::<(), toml::de::Error>(())
 /// ```
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Force {
     /// Time constant of V_s, s; at 0 it is the voltage itself.

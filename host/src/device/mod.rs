@@ -51,6 +51,7 @@ use hapticore_contract::calibration::{
 };
 use hapticore_contract::format::Format;
 use hapticore_contract::profile::{ForceLaw, Profile};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The calibration of a device, as its file holds it: the same for every profile.
@@ -65,10 +66,11 @@ use serde::Deserialize;
 /// assert_eq!(calibration.capacitance_gain.round(), 796.0, "pF at 4 mA for 8 V");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DeviceCalibration {
     /// Number of pads, selected in turn.
+    #[schemars(range(min = 1, max = 256))]
     pub pads: u64,
     /// Of them, this many in a row are parts of one pad.
     #[serde(default = "whole")]
@@ -92,12 +94,14 @@ fn whole() -> u64 {
 }
 
 /// The signs of the terminals' currents in the numerators of both ratios.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Signs {
     /// Signs of the terminals in r_x: −1, 0 or 1.
+    #[schemars(inner(range(min = -1, max = 1)))]
     pub x: Vec<i8>,
     /// Signs of the terminals in r_y: −1, 0 or 1.
+    #[schemars(inner(range(min = -1, max = 1)))]
     pub y: Vec<i8>,
 }
 
@@ -112,24 +116,32 @@ impl Default for Signs {
 pub type Found = ([f64; 2], [f64; 2]);
 
 /// Full scales, frequencies and the force law.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Scales {
     /// ADC samples per second.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub sample_rate_hz: f64,
     /// Frequency of the sensing carrier, Hz.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub carrier_hz: f64,
     /// Current at full scale.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub current_full_scale_a: f64,
     /// Sensing voltage at full scale.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub sense_full_scale_v: f64,
     /// Haptic voltage at full scale.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub haptic_full_scale_v: f64,
     /// k of eq. 8, N/(F·V)².
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub force_k: f64,
     /// Of a pad, where it is known.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub pad_diameter_mm: Option<f64>,
-    /// A pad of at most this capacitance is lifted, pF, 0 to [`MOST_CONTACT_PF`]; calibrations of earlier versions have none: see [`DeviceCalibration::contact_pf`].
+    /// A pad of at most this capacitance is lifted, pF; without it, a tenth of the capacitance whose current is at full scale.
+    #[schemars(range(min = 0, max = 1e6))]
     pub contact_pf: Option<f64>,
 }
 
@@ -144,7 +156,7 @@ pub const MOST_CONTACT_PF: f64 = 1e6;
 const CONTACT_SHARE_OF_FULL_SCALE: f64 = 0.1;
 
 /// Places in whole rows: `[x_mm, y_mm, r_x, r_y, sheet_ohm]`.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Raster {
     /// Places in a row.

@@ -2,11 +2,12 @@
 //! What share of the current each terminal has, by place: what the currents of a recording are
 //! checked against.
 
+use schemars::JsonSchema;
 use serde::Deserialize;
 use std::fmt::Write;
 
 /// Shares of all current, at places.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Shares {
     /// How far a place's shares are from those that the places about it tell: the median.

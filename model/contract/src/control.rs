@@ -22,10 +22,11 @@
 //! in which a pad is pulled in move it little, and it stays as it is while the target is zero.
 
 use hapticore_hdl::format::Format;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// How a drive word follows from target and measurement.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Law {
     /// The curve alone (eq. 9).
@@ -58,7 +59,7 @@ impl Law {
 const CONTACT_SLEW_FRAC: i32 = 6;
 
 /// The controller of a core.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Control {
     /// How a drive word follows from target and measurement.
@@ -70,11 +71,14 @@ pub struct Control {
     /// Gains.
     pub gain: Format,
     /// Cells of the curve, a power of two.
+    #[schemars(range(min = 4, max = 1024))]
     pub cells: u64,
     /// The number of invalid frames of a pad in a row that are a fault.
+    #[schemars(range(min = 1, max = 1048576))]
     pub invalid_frames: u64,
     /// Milliseconds without a sign of life from the host that are a fault; the last may be a part of one.
     #[serde(default = "silent_ms")]
+    #[schemars(range(min = 2, max = 1000))]
     pub silent_ms: u64,
 }
 

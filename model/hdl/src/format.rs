@@ -5,6 +5,7 @@
 //! and all fraction. The point may lie outside the word (`u18.38`), as calibrated constants need.
 //! Formats are run-time values, so that a sweep over word lengths needs no recompilation.
 
+use std::borrow::Cow;
 use std::fmt;
 use std::str::FromStr;
 
@@ -301,6 +302,21 @@ impl<'de> serde::Deserialize<'de> for Format {
     fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let text = String::deserialize(deserializer)?;
         text.parse().map_err(serde::de::Error::custom)
+    }
+}
+
+/// A text such as `s18.17`.
+impl schemars::JsonSchema for Format {
+    fn schema_name() -> Cow<'static, str> {
+        "WordFormat".into()
+    }
+
+    fn json_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        schemars::json_schema!({
+            "type": "string",
+            "title": "format, such as `s18.17`",
+            "pattern": "^[su][0-9]+\\.-?[0-9]+$",
+        })
     }
 }
 

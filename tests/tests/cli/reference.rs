@@ -7,7 +7,7 @@ use std::path::Path;
 use hapticore::args::NewKind;
 use hapticore::new;
 use hapticore::reference::{PAGES, markdown};
-use hapticore_contract::profile::Profile;
+use hapticore_contract::profile::{Profile, ProfileError};
 use hapticore_run::lab::setup::{Setup, parsed};
 use hapticore_scene::gallery;
 use serde_json::Value;
@@ -53,10 +53,14 @@ fn unknown(value: &toml::Value, schema: &Value, root: &Value, path: &str) -> Vec
     let forms = schema["anyOf"].as_array();
     let schemas: Vec<&Value> = forms.map_or(vec![schema], |forms| forms.iter().collect());
     let schemas = schemas.into_iter().map(|form| match form["$ref"].as_str() {
-        Some(_) => &root["$defs"]["stimulus"],
+        Some(path) => &root["$defs"][path.rsplit('/').next().unwrap()],
         None => form,
     });
-    let of = |kind: &str| schemas.clone().find(|form| form["type"] == kind).cloned();
+    let is = |form: &&Value, kind: &str| {
+        form["type"] == kind
+            || form["type"].as_array().is_some_and(|types| types.contains(&kind.into()))
+    };
+    let of = |kind: &str| schemas.clone().find(|form| is(form, kind)).cloned();
     match value {
         toml::Value::Table(table) => {
             let Some(form) = of("object") else { return vec![path.to_string()] };
@@ -99,6 +103,95 @@ fn the_schema_knows_every_key_of_the_bundled_scenes_and_no_other() {
 }
 
 #[test]
+fn schemas_of_profiles_and_calibrations_know_every_key_of_written_files() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let simulate = ["simulate", "hockey", "--capture", "run.wav", "--out", "run"];
+    expect(at, &simulate, 0);
+    let text = |file: &str| fs::read_to_string(at.join(file)).unwrap();
+    let calibrations = json(&["reference", "calibration", "--schema"]);
+    let controlled = include_str!("../../../rtl/verilog/loop.toml").to_string();
+    let setup = new::text(NewKind::Calibration);
+    for (text, schema) in [
+        (text("run/profile.toml"), json(&["reference", "profile", "--schema"])),
+        (controlled, json(&["reference", "profile", "--schema"])),
+        (text("run.wav.calibration.toml"), calibrations["calibration of a device"].clone()),
+        (setup, calibrations["set-up for hapticore calibrate"].clone()),
+    ] {
+        let file: toml::Table = toml::from_str(&text).unwrap();
+        assert_eq!(unknown(&file.into(), &schema, &schema, ""), Vec::<String>::new());
+    }
+}
+
+/// The keys of a profile whose ranges are declared: dotted path, least, most.
+fn declared_ranges(schema: &Value, root: &Value, path: &str) -> Vec<(String, f64, f64)> {
+    let properties = schema["properties"].as_object().into_iter().flatten();
+    let ranges = properties.flat_map(|(name, property)| {
+        let path = if path.is_empty() { name.clone() } else { format!("{path}.{name}") };
+        let nullable = property["anyOf"][0].is_object().then(|| &property["anyOf"][0]);
+        let form = nullable.unwrap_or(property);
+        match (form["$ref"].as_str(), &form["minimum"], &form["maximum"]) {
+            (Some(name), ..) => {
+                let name = name.rsplit('/').next().unwrap();
+                declared_ranges(&root["$defs"][name], root, &path)
+            }
+            (None, Value::Number(least), Value::Number(most)) => {
+                vec![(path, least.as_f64().unwrap(), most.as_f64().unwrap())]
+            }
+            _ => Vec::new(),
+        }
+    });
+    ranges.collect()
+}
+
+/// Sets a dotted key of a profile.
+fn with(profile: &toml::Table, path: &str, value: f64) -> Result<Profile, ProfileError> {
+    let mut changed = profile.clone();
+    let mut table = &mut changed;
+    let (tables, key) = path.rsplit_once('.').unwrap_or(("", path));
+    for name in tables.split('.').filter(|name| !name.is_empty()) {
+        table = table.entry(name).or_insert(toml::Table::new().into()).as_table_mut().unwrap();
+    }
+    table.insert(key.into(), (value as i64).into());
+    Profile::parse(&toml::to_string(&changed).unwrap())
+}
+
+/// Whether a value is refused for being out of its key's range, whatever else the profile then lacks.
+fn is_out_of_range(profile: &toml::Table, path: &str, value: f64) -> bool {
+    let error = with(profile, path, value).err().map(|error| error.to_string());
+    let expected = format!("{path}: expected ");
+    error.is_some_and(|error| {
+        error.starts_with(&expected) && error.ends_with(&format!("got {value}"))
+    })
+}
+
+/// The schema's ranges and those that a profile is checked against are written in two places.
+#[test]
+fn ranges_of_the_profile_reference_are_those_that_are_checked() {
+    let root = json(&["reference", "profile", "--schema"]);
+    let loops = include_str!("../../../rtl/verilog/loop.toml");
+    let profile: toml::Table = toml::from_str(loops).unwrap();
+    let ranges = declared_ranges(&root, &root, "");
+    assert!(ranges.len() > 25, "{ranges:?}");
+    for (path, least, most) in ranges.iter().filter(|(path, ..)| !path.starts_with("formats.")) {
+        assert!(is_out_of_range(&profile, path, most + 1.0), "{path}: {} is accepted", most + 1.0);
+        assert!(
+            *least == 0.0 || is_out_of_range(&profile, path, least - 1.0),
+            "{path}: {}",
+            least - 1.0
+        );
+        for end in [*least, *most] {
+            let error = with(&profile, path, end).err().map(|error| error.to_string());
+            let refused = format!("{path}: expected {least} to {most}");
+            assert!(
+                error.is_none_or(|error| !error.starts_with(&refused)),
+                "{path}: {end} is refused"
+            );
+        }
+    }
+}
+
+#[test]
 fn a_new_file_runs_as_it_is_and_takes_no_place() {
     let folder = tempfile::tempdir().unwrap();
     let at = folder.path();
@@ -137,4 +230,34 @@ fn words_that_are_near_are_named() {
     assert!(
         String::from_utf8_lossy(&output.stderr).contains("did you mean \"stiffness_n_per_mm\"?")
     );
+}
+
+/// Candidates for the last word of a command line.
+fn completed(words: &[&str]) -> Vec<String> {
+    let folder = tempfile::tempdir().unwrap();
+    let last = (words.len()).to_string();
+    let output = crate::command(folder.path(), &[&["--", "hapticore"], words].concat())
+        .envs([("COMPLETE", "bash"), ("_CLAP_IFS", "\n"), ("_CLAP_COMPLETE_INDEX", &last)])
+        .output()
+        .unwrap();
+    let text = String::from_utf8(output.stdout).unwrap();
+    text.lines().map(String::from).collect()
+}
+
+#[test]
+fn a_shell_completes_scenes_profiles_keys_and_their_words() {
+    assert_eq!(completed(&["simulate", "minimal-sh"]), ["minimal-sheet", "minimal-shunt"]);
+    assert_eq!(completed(&["live", "hoc"]), ["hockey"]);
+    assert_eq!(completed(&["hdl", "--profile", "f"]), ["fine", "fast"]);
+    assert_eq!(
+        completed(&["simulate", "fig6", "--set", "sheet.terminal_o"]),
+        ["sheet.terminal_ohm="]
+    );
+    let rules = completed(&["simulate", "fig15", "--set", "wall.rule=s"]);
+    assert_eq!(rules, ["wall.rule=sequential"]);
+    assert_eq!(completed(&["simulate", "fig6", "--set", "pad.0.load"]), ["pad.0.load_g="]);
+    assert_eq!(completed(&["reference", "calib"]), ["calibration"]);
+    let folder = tempfile::tempdir().unwrap();
+    let script = crate::command(folder.path(), &[]).env("COMPLETE", "zsh").output().unwrap();
+    assert!(String::from_utf8(script.stdout).unwrap().contains("compdef"));
 }

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The state of a pad in a word; when each holds, `state.rs` says.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// A state that a client sees, from the best to the worst.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, JsonSchema)]
 pub enum State {
     /// Nothing acts on the pad but its load and its drive.
     #[default]

@@ -26,6 +26,7 @@
 use anyhow::{Context, Result, anyhow, ensure};
 use hapticore_contract::profile::Profile;
 use hapticore_scene::signs_by_place;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 
@@ -33,20 +34,26 @@ use hapticore_host::Signs;
 use hapticore_host::text::with_key;
 
 /// What is known of a device before anything is measured.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Setup {
     /// Number of pads, selected in turn.
+    #[schemars(range(min = 1, max = 256))]
     pub pads: u64,
     /// ADC samples per second.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub sample_rate_hz: f64,
     /// Frequency of the sensing carrier, Hz.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub carrier_hz: f64,
     /// Current at full scale, peak.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub current_full_scale_a: f64,
     /// Sensing voltage at full scale, peak.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub sense_full_scale_v: f64,
     /// Haptic voltage at full scale, peak.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub haptic_full_scale_v: f64,
     /// The coefficient of friction, where it is known.
     pub mu: Option<f64>,
@@ -78,7 +85,7 @@ fn standard_gravity() -> f64 {
 }
 
 /// Signs or places of the terminals.
-#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Terminals {
     /// Signs in r_x.
@@ -90,7 +97,7 @@ pub struct Terminals {
 }
 
 /// A uniform sheet.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Sheet {
     /// Size of the sheet along x, mm.

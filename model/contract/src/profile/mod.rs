@@ -12,6 +12,7 @@ pub use wall::{Release, Wall};
 
 use crate::control::{Control, Law};
 use hapticore_hdl::format::Format;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::fmt::Display;
 
@@ -26,17 +27,20 @@ use std::fmt::Display;
 /// assert_eq!(profile.formats.adc.to_string(), "s18.17");
 /// # Ok::<(), hapticore_contract::profile::ProfileError>(())
 /// ```
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Profile {
     /// What it is called.
     pub name: String,
-    /// Number of pads, selected in turn.
+    /// Number of pads, selected in turn; with `[wall]` slots, a multiple of its `parts`.
+    #[schemars(range(min = 1, max = 256))]
     pub pads: u64,
     /// Clocks of the core from one ADC sample to the next.
+    #[schemars(range(min = 1, max = 65536))]
     pub clocks_per_sample: u64,
     /// The width of the words that a hardware multiplier of the part takes; wider products take two
     /// clocks.
+    #[schemars(range(min = 8, max = 64))]
     pub multiplier: u8,
     /// The current sensors.
     pub terminals: Terminals,
@@ -65,34 +69,40 @@ pub struct Profile {
 }
 
 /// The current sensors at the sheet's edge, and where they stand in eqs. 2 and 3.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Terminals {
     /// The sign of each terminal's current in the numerator of r_x.
+    #[schemars(inner(range(min = -1, max = 1)))]
     pub x: Vec<i8>,
     /// The sign of each terminal's current in the numerator of r_y.
+    #[schemars(inner(range(min = -1, max = 1)))]
     pub y: Vec<i8>,
 }
 
 /// How a pad's slot is spent, in ADC samples.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Slot {
     /// Samples with no pad driven, so that the switch before breaks first.
+    #[schemars(range(min = 1, max = 1048576))]
     pub open: u64,
     /// Samples for the new pad to settle.
+    #[schemars(range(min = 0, max = 1048576))]
     pub settle: u64,
     /// Samples of the demodulator's window.
+    #[schemars(range(min = 8, max = 65536))]
     pub integrate: u64,
 }
 
 /// The sensing carrier, made by the core itself.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Carrier {
     /// Periods in a window. With no divisor in common with the window's samples every sample meets
     /// another phase, so that harmonics of the carrier stay off it and undithered rounding averages
     /// out.
+    #[schemars(range(min = 2))]
     pub periods: u64,
     /// The code that stands for one: of the carrier's words where a sample is multiplied by them,
     /// else of the window's.
@@ -104,7 +114,7 @@ pub struct Carrier {
 }
 
 /// How a channel's in-phase and quadrature sums are made.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Method {
     /// Each sample times the windowed cosine and sine: any number of periods.
@@ -115,7 +125,7 @@ pub enum Method {
 }
 
 /// The window function.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Window {
     /// (1 − cos) / 2.
@@ -125,22 +135,26 @@ pub enum Window {
 }
 
 /// The position table and its inversion.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Position {
     /// Coefficients of a ratio's spline along the long edges; an odd number, so that one lies in
     /// the middle.
+    #[schemars(range(min = 5, max = 65))]
     pub columns: u64,
     /// Coefficients along the short edges, likewise.
+    #[schemars(range(min = 5, max = 65))]
     pub rows: u64,
     /// The resistance's cells are `2^resistance_shift` of the ratios' wide and high.
+    #[schemars(range(min = 1, max = 4))]
     pub resistance_shift: u8,
     /// Newton steps per slot.
+    #[schemars(range(min = 1, max = 15))]
     pub steps: u64,
 }
 
 /// Capacitance from currents.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Capacitance {
     /// Takes the sheet's resistance out (docs/physics.md §2); without it, eq. 6 alone.
@@ -148,10 +162,11 @@ pub struct Capacitance {
 }
 
 /// The haptic voltage.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Haptic {
     /// Windows of a pad over which the mean square is taken: a power of two.
+    #[schemars(range(min = 1, max = 64))]
     pub windows: u64,
 }
 
@@ -163,7 +178,7 @@ impl Default for Haptic {
 }
 
 /// Force from capacitance and haptic voltage.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Force {
     /// The law.
@@ -174,7 +189,7 @@ pub struct Force {
 }
 
 /// The law by which force follows from capacitance and haptic voltage.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum ForceLaw {
     /// F = k·(C·V)² with one k (paper, eq. 8).
@@ -197,10 +212,10 @@ const fn force_voltage() -> Format {
 }
 
 /// Word formats. Every other width of the core derives from these.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Formats {
-    /// ADC codes; one is full scale.
+    /// ADC codes; one is full scale. A signed fraction of 4 to 24 bits.
     pub adc: Format,
     /// Cosine, sine and window.
     pub oscillator: Format,
@@ -214,7 +229,7 @@ pub struct Formats {
     pub block_shift: u8,
     /// The ratios of eqs. 2 and 3.
     pub ratio: Format,
-    /// Words of the position table; all are fractions.
+    /// Words of the position table; all are fractions of 12 to 27 bits.
     pub table: Format,
     /// Positions, mm.
     pub position: Format,

@@ -6,10 +6,11 @@ use super::{
     Profile, ProfileError,
     check::{ensure, within},
 };
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// When a wall lets a pad go.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Release {
     /// Never: eq. 11.
@@ -33,44 +34,59 @@ pub enum Release {
 /// assert_eq!(message, "wall.engage: expected 1 to 63, got 0");
 /// # Ok::<(), hapticore_contract::profile::ProfileError>(())
 /// ```
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Wall {
     /// Slots of a pad, one for each of its parts. With 2 parts, left and right sense and brake; with 3, the last brakes
     /// alone. With 4, quadrants sense and brake, top left, bottom left, bottom right and top right, with a wall along
     /// either axis.
+    #[schemars(range(min = 2, max = 4))]
     pub parts: u64,
     /// When it lets go.
     pub rule: Release,
     /// h1: evidence, in standard deviations, that lets go.
+    #[schemars(range(min = 1, max = 63))]
     pub release: u64,
     /// h2: evidence that engages again.
+    #[schemars(range(min = 1, max = 63))]
     pub engage: u64,
     /// bf in sixteenths: by how much of the friction's asymmetry letting go is advanced.
+    #[schemars(range(min = 0, max = 255))]
     pub advance_16: u64,
     /// kb in sixteenths: by how much of it engaging is delayed.
+    #[schemars(range(min = 0, max = 255))]
     pub delay_16: u64,
     /// Frames that a state lasts at least.
+    #[schemars(range(min = 0, max = 1023))]
     pub dwell_frames: u64,
     /// Frames in which the force comes back when the wall engages again.
+    #[schemars(range(min = 1, max = 1023))]
     pub ramp_frames: u64,
     /// Frames without voltage after which the direction is learnt.
+    #[schemars(range(min = 1, max = 1023))]
     pub zero_frames: u64,
     /// Speed from which it is learnt, µm per frame.
+    #[schemars(range(min = 1, max = 10000))]
     pub learn_um: u64,
     /// Speed beyond which only play releases, or nothing engages, µm per frame.
+    #[schemars(range(min = 1, max = 10000))]
     pub fast_um: u64,
     /// Play of the position, µm; also the way after which a direction of motion counts: half of it along the surface is
     /// sliding.
+    #[schemars(range(min = 1, max = 10000))]
     pub play_um: u64,
     /// Distance from the wall at which air is free, µm.
+    #[schemars(range(min = 1, max = 10000))]
     pub clear_um: u64,
     /// Frames without a slip inwards after which the force of a push that reads weaker falls; 0 where it never
     /// does.
+    #[schemars(range(min = 0, max = 1023))]
     pub quiet_frames: u64,
     /// What counts as a slip, µm.
+    #[schemars(range(min = 1, max = 10000))]
     pub slip_um: u64,
     /// The force beyond which no direction reading releases, where a stationary push's force may fall, mN.
+    #[schemars(range(min = 0, max = 10000))]
     pub latch_mn: u64,
 }
 

@@ -13,8 +13,8 @@ use super::tally::{is_help, name};
 use super::values::{self, Values};
 
 /// Subcommands of many options or inputs come oftener than others.
-const OFTEN: [(&str, u32); 5] =
-    [("simulate", 8), ("replay", 5), ("hdl", 6), ("host", 4), ("codes", 3)];
+const OFTEN: [(&str, u32); 6] =
+    [("simulate", 8), ("replay", 5), ("hdl", 6), ("host", 4), ("codes", 3), ("new", 2)];
 
 /// What the parser takes only beside another option: subcommand, option, the other.
 const BESIDE: [(&str, &str, &str); 10] = [

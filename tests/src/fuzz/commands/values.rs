@@ -89,7 +89,7 @@ impl<'a> Values<'a> {
             }
             ("reference", "key") => one_of(
                 rng,
-                "wall gap.rung pad.0.load_g force_n columns criteria stimulus [[pad]] pad.position_mm.circle wal .. pad.0.0 x",
+                "wall gap.rung pad.0.load_g force_n columns criteria profile calibration messages stimulus [[pad]] pad.position_mm.circle wal .. pad.0.0 x",
             ),
             ("new", "file") => one_of(rng, "new.toml nowhere/new.toml folder.toml empty.csv ."),
             (_, "scene" | "show") => scene.to_string(),

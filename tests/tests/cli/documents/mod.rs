@@ -33,7 +33,7 @@ fn documents() -> Vec<(String, String)> {
         "synth/README.md",
     ];
     let mut names: Vec<String> = PAGES.map(String::from).to_vec();
-    for folder in ["docs", "docs/guide/reference"] {
+    for folder in ["docs", "docs/guide", "docs/guide/reference"] {
         for entry in fs::read_dir(root().join(folder)).expect("documents").flatten() {
             let name = entry.file_name().to_string_lossy().into_owned();
             names.extend(name.ends_with(".md").then(|| format!("{folder}/{name}")));
