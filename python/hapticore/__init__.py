@@ -11,6 +11,7 @@ The same Rust code as the command ``hapticore``: results are equal to the bit.
 `live`                              a scene in the browser
 `tradeoff`                          what accuracy costs: errors, latency and area of profiles
 `hapticore.gym`                     Gymnasium environments, registered where Gymnasium is there
+`hapticore.zoo`                     air hockey of two policies, for PettingZoo
 ==================================  ==========================================================
 
 Names end with their unit: ``_mm``, ``_n`` (N), ``_g``, ``_pf``, ``_v_rms`` (V rms), ``_s``.

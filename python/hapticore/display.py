@@ -248,6 +248,16 @@ class Display:
         """
         self._stepped.target(self._pad(pad), target_n)
 
+    def serve(self) -> None:
+        """Serve a new puck, in a scene with an ``[arena]``.
+
+        Raises
+        ------
+        Error
+            The case has no arena.
+        """
+        self._stepped.serve()
+
     def wall(self, x_mm: float | None = None, y_mm: float | None = None, *, off: bool = False) -> None:
         """Move the walls, or take them away.
 

@@ -154,6 +154,11 @@ impl Stepped {
         self.apply(py, &Input::Target { pad, newtons: target_n })
     }
 
+    /// Serves a new puck.
+    fn serve(&self, py: Python<'_>) -> PyResult<()> {
+        self.apply(py, &Input::Serve)
+    }
+
     /// Where walls begin, mm.
     #[pyo3(signature = (x_mm, y_mm, off))]
     fn wall(

@@ -21,7 +21,7 @@ import hapticore as hc
 PYTHON = Path(__file__).resolve().parents[1]
 CONFIG = str(PYTHON / "pyproject.toml")
 MODULES = [
-    "", ".board", ".core", ".display", ".errors", ".frames", ".gym", ".page", ".plots", ".runs", ".tradeoffs",
+    "", ".board", ".core", ".display", ".errors", ".frames", ".gym", ".page", ".plots", ".runs", ".tradeoffs", ".zoo",
 ]  # fmt: skip
 
 
@@ -47,8 +47,8 @@ def test_types_are_strict() -> None:
 
 @pytest.mark.parametrize("module", MODULES)
 def test_examples_give_what_they_show(module: str) -> None:
-    if module == ".gym":
-        pytest.importorskip("gymnasium")
+    if module in (".gym", ".zoo"):
+        pytest.importorskip({".gym": "gymnasium", ".zoo": "pettingzoo"}[module])
     result = doctest.testmod(importlib.import_module(f"hapticore{module}"))
     assert result.failed == 0
 
