@@ -135,3 +135,25 @@ fn a_hand_that_slides_along_the_surface_is_not_dragged() {
         }
     }
 }
+
+/// Of hands whose seeds no rule was tuned on. A frame of the pad is three slots of 250 µs with strips, two with halves.
+#[test]
+fn a_stiff_wall_is_felt_and_releases_within_milliseconds() {
+    let hands = if cfg!(optimised) { 2000..2003 } else { 2000..2001 };
+    for (pad, noise_ppm, play_mm, release_ms) in [
+        (Pad::Strips, 18.0, 0.2, 15.0),
+        (Pad::Halves, 18.0, 0.2, 30.0),
+        (Pad::Strips, 60.0, 0.4, 15.0),
+        (Pad::Halves, 60.0, 0.4, 30.0),
+    ] {
+        let core = InCore { pad, profile: "fast", n_per_mm: 8.0, play_mm, noise_ppm };
+        let latency = core.latency(hands.clone(), 50.0);
+        println!("{pad:?}, {noise_ppm} ppm: {latency:?}");
+        assert!(latency.engage_ms > 0.0 && latency.engage_ms <= 5.0, "{pad:?}: {latency:?}");
+        assert!(
+            latency.release_ms > 0.0 && latency.release_ms <= release_ms,
+            "{pad:?}: {latency:?}"
+        );
+        assert!(latency.contrast >= 7.0, "{pad:?}: {latency:?}");
+    }
+}

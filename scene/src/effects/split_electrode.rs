@@ -50,7 +50,7 @@ keys! { KEYS:
     QUADRANTS: bool = Key::flag("quadrants");
     /// Share of the pad's area that the outer two of four strips have together.
     OUTER_SHARE_PERCENT: f64 = Key::number("outer_share_percent", Limits::within(1.0, 90.0)).or(20.0);
-    /// Largest haptic voltage of the outer two of four strips.
+    /// Largest haptic voltage of the outer two of four strips; with `strips`.
     SENSING_V_RMS: Option<f64> = Key::number("sensing_v_rms", Limits::within(0.0, 1e5)).usually("no limit");
     /// Height above the sheet at which the hand pushes; with `[hand]`.
     PUSH_HEIGHT_MM: Option<f64> = Key::number("push_height_mm", Limits::within(0.0, 1e3)).usually("5 with [hand], else 0");

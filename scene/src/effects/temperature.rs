@@ -40,7 +40,8 @@ keys! { KEYS:
     TEMPCO_PPM_PER_K: Option<f64> = Key::number("tempco_ppm_per_k", Limits::within(-1e5, 1e5));
     /// How much warmer than at the calibration the sheet's middle is.
     RISE_K: Option<Stimulus> = Key::over_time("rise_k", Limits::within(-1e3, 1e3)).usually("0");
-    /// Difference of temperature from the left edge to the right one and from the bottom to the top.
+    /// Difference of temperature from the left edge to the right one and from the bottom to the top; with
+    /// `tempco_ppm_per_k`.
     GRADIENT_K: [f64; 2] = Key::pair("gradient_k", Limits::within(-1e3, 1e3)).or(&[0.0; 2]);
     /// Temperature coefficient β of the springs in `[gap]`.
     SPRING_PERCENT_PER_K: Option<f64> = Key::number("spring_percent_per_k", Limits::within(-100.0, 100.0));

@@ -62,7 +62,7 @@ impl<'a> Step<'a> {
         match &mut node.value {
             Value::Table(table) => Ok(Step::Table(table)),
             Value::List(list) => Ok(Step::List(list)),
-            other => Err(format!("expected a table {part}, whose key could be set, got {other}")),
+            other => Err(format!("expected a table at {part}, got {other}")),
         }
     }
 

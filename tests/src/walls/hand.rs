@@ -139,6 +139,20 @@ impl Hand {
         Hand { parts: plan.parts, along, ..hand }
     }
 
+    /// The hand of a seed. It goes to and fro in air, crosses the surface at a mean speed, presses with 0.8 N and leaves twice
+    /// as fast.
+    pub fn crossing(seed: u64, wall_n_per_mm: f64, mm_per_s: f64) -> Hand {
+        let hand = Hand::draw(seed, wall_n_per_mm);
+        let mut plan = Plan { parts: Vec::new(), at_mm: START_MM, time_s: 0.0 };
+        for to_mm in [4.0, 11.0, 6.0] {
+            plan.go(Phase::Air, to_mm, 40.0);
+        }
+        plan.go(Phase::Enter, aim_mm(0.8, hand.stiffness_n_per_m, wall_n_per_mm), mm_per_s);
+        plan.wait(Phase::Press, 0.3);
+        plan.go(Phase::LeaveFast, 8.0, 2.0 * mm_per_s);
+        Hand { parts: plan.parts, ..hand }
+    }
+
     /// How the paper's authors went through a wall once: in by 10 mm, a pause, out again.
     pub fn of_the_paper() -> Hand {
         let mut plan = Plan { parts: Vec::new(), at_mm: START_MM, time_s: 0.0 };

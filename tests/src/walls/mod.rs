@@ -10,6 +10,7 @@
 //! | [`core`] | the same hands at a wall in the core, through its sensor chain |
 //! | [`trial`] | one hand, one rule: the loop |
 //! | [`measures`] | sticking force, release time, flips, bursts of them, vanished walls |
+//! | [`latency`] | how soon the wall is felt and releases, and how much it stands out |
 //! | [`slide`] | what a hand feels that slides along the surface |
 //! | [`stiffness`] | how stiff the wall is to a hand that presses |
 //!
@@ -22,6 +23,7 @@ pub mod clocked;
 pub mod core;
 pub mod device;
 pub mod hand;
+pub mod latency;
 pub mod measures;
 pub mod slide;
 pub mod stiffness;
