@@ -5,25 +5,25 @@ use anyhow::{Context, Result};
 use hapticore_run::engine::Fidelity;
 use hapticore_run::record::Provenance;
 use hapticore_run::stepper::Stepper;
-use hapticore_scene::{Measure, Quantity, Scene, Setpoint, gallery};
+use hapticore_scene::{Measure, Quantity, Scene, Setpoint, gallery, reference};
 
 use crate::presets;
 use crate::protocol::{
     Arena, COLUMNS, Hello, InputInfo, Limits, Opening, Pad, SettingInfo, SlotCodes, VERSION, Wall,
 };
 
-/// Keys of scenes that are worth changing: table, key, unit, label, least and largest value of a slider.
-const SETTINGS: [(&str, &str, &str, [f64; 2]); 10] = [
-    ("wall.stiffness_n_per_mm", "N/mm", "Stiffness of the wall", [0.05, 2.0]),
-    ("arena.puck_g", "g", "Mass of the puck", [5.0, 100.0]),
-    ("arena.impact_ms", "ms", "How long an impact is felt", [5.0, 100.0]),
-    ("control.rail_v", "V", "Largest drive, RMS", [50.0, 500.0]),
-    ("device.mu", "", "Friction coefficient", [0.02, 0.5]),
-    ("halves.mismatch_percent", "%", "Mismatch of the electrodes", [-5.0, 5.0]),
-    ("sensor.noise_ppm_rms", "ppm", "Noise of the ADC, RMS", [0.0, 500.0]),
-    ("sensor.quantisation_bits", "bit", "Bits of the ADC", [8.0, 24.0]),
-    ("sheet.terminal_ohm", "Ω", "Resistance of each terminal", [0.0, 1000.0]),
-    ("sheet.ohm_per_square", "Ω", "Resistance of the sheet per square", [50.0, 500.0]),
+/// Keys of scenes that are worth changing: key, label, least and largest value of a slider. Units and meanings are declared.
+const SETTINGS: [(&str, &str, [f64; 2]); 10] = [
+    ("wall.stiffness_n_per_mm", "Stiffness of the wall", [0.05, 2.0]),
+    ("arena.puck_g", "Mass of the puck", [5.0, 100.0]),
+    ("arena.impact_ms", "How long an impact is felt", [5.0, 100.0]),
+    ("control.rail_v", "Largest drive, RMS", [50.0, 500.0]),
+    ("device.mu", "Friction coefficient", [0.02, 0.5]),
+    ("halves.mismatch_percent", "Mismatch of the electrodes", [-5.0, 5.0]),
+    ("sensor.noise_ppm_rms", "Noise of the ADC", [0.0, 500.0]),
+    ("sensor.quantisation_bits", "Resolution of the ADC", [8.0, 24.0]),
+    ("sheet.terminal_ohm", "Resistance of each terminal", [0.0, 1000.0]),
+    ("sheet.ohm_per_square", "Resistance of the sheet per square", [50.0, 500.0]),
 ];
 
 /// All that does not change of a case.
@@ -135,18 +135,15 @@ fn inputs(stepper: &Stepper, document: &toml::Table, set: &Setpoint) -> Vec<Inpu
 }
 
 fn settings(document: &toml::Table) -> Vec<SettingInfo> {
-    let of_table = |(key, unit, label, [least, most]): &(
-        &'static str,
-        &'static str,
-        &'static str,
-        [f64; 2],
-    )| {
+    let of_table = |&(key, label, [least, most]): &(&'static str, &'static str, [f64; 2])| {
         let (table, name) = key.split_once('.')?;
         let table = document.get(table)?.as_table()?;
+        let (_, declared) = reference::key(key)?;
+        let (unit, says) = (declared.unit().unwrap_or_default(), declared.says());
         let number =
             |value: &toml::Value| value.as_float().or(value.as_integer().map(|value| value as f64));
         let value = table.get(name).and_then(number);
-        Some(SettingInfo { key, unit, label, least: *least, most: *most, value })
+        Some(SettingInfo { key, unit, label, says, least, most, value })
     };
     SETTINGS.iter().filter_map(of_table).collect()
 }
@@ -213,5 +210,21 @@ pub fn codes(stepper: &Stepper) -> SlotCodes {
         full_scale: (1.0 / profile.formats.adc.lsb()) as i32,
         sample_rate_hz: stepper.plant().device().sample_rate_hz,
         codes: if codes.is_empty() { Vec::new() } else { (0..channels).map(channel).collect() },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use hapticore_scene::reference;
+
+    use super::SETTINGS;
+
+    #[test]
+    fn each_slider_is_of_a_declared_key_and_within_its_range() {
+        for (key, _, ends) in SETTINGS {
+            let (_, declared) = reference::key(key).unwrap_or_else(|| panic!("{key} is no key"));
+            let limits = declared.limits();
+            assert!(ends.iter().all(|end| limits.holds(*end)), "{key}: {ends:?} of {limits}");
+        }
     }
 }

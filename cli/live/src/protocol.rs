@@ -413,6 +413,8 @@ pub struct SettingInfo {
     pub unit: &'static str,
     /// What it is called.
     pub label: &'static str,
+    /// What it means, as `hapticore reference` has it.
+    pub says: &'static str,
     /// Least value of a slider.
     pub least: f64,
     /// Largest value of a slider.
