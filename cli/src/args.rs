@@ -420,7 +420,7 @@ const REFERENCE: &str = "Examples:
   hapticore reference wall                  # a table, as gap, pad, pad.position_mm or stimulus
   hapticore reference gap.rung              # a key; a name without a table finds it in all tables
   hapticore reference criteria              # measures; columns: quantities and columns
-  hapticore reference profile               # also calibration; messages: of the live page
+  hapticore reference profile               # also calibration, of which [calibration] is a scene's table; live messages
   hapticore reference --schema > scene.schema.json
 
 An editor with a TOML language server takes the schema by a first line \"#:schema ./scene.schema.json\" of the scene.
