@@ -171,17 +171,48 @@ impl Puck {
     /// Moves it out of a mallet that was put on it or pins it, and back on the table. Its velocity stays.
     fn keep_apart(&mut self, rules: &Rules, gone_s: f64, mallets: &[Option<Moving>]) {
         let radius_mm = rules.puck_radius_mm + rules.mallet_radius_mm;
+        let reach_mm = rules.puck_reach_mm();
         for mallet in mallets.iter().flatten() {
             let centre = mallet.at(gone_s);
             let away = minus(self.place_mm, centre);
             if dot(away, away) < radius_mm * radius_mm {
-                let normal = normal(away).unwrap_or([1.0, 0.0]);
-                self.place_mm = [0, 1].map(|axis| centre[axis] + radius_mm * normal[axis]);
+                self.place_mm = self.nearest_beside(centre, radius_mm, reach_mm);
             }
         }
-        for (place, reach) in self.place_mm.iter_mut().zip(rules.puck_reach_mm()) {
+        for (place, reach) in self.place_mm.iter_mut().zip(reach_mm) {
             *place = place.clamp(-reach, reach);
         }
+    }
+
+    /// The nearest place on the table at a distance from a mallet's centre: straight away from it, or where a wall is in the
+    /// way, along that.
+    fn nearest_beside(&self, centre: [f64; 2], radius_mm: f64, reach_mm: [f64; 2]) -> [f64; 2] {
+        let normal = normal(minus(self.place_mm, centre)).unwrap_or([1.0, 0.0]);
+        let straight = [0, 1].map(|axis| centre[axis] + radius_mm * normal[axis]);
+        let is_on_table =
+            |place: &[f64; 2]| place.iter().zip(reach_mm).all(|(mm, reach)| mm.abs() <= reach);
+        if is_on_table(&straight) {
+            return straight;
+        }
+        let on_wall = |axis: usize, wall_mm: f64, side: f64| {
+            let across_mm = wall_mm - centre[axis];
+            let along_mm = (radius_mm * radius_mm - across_mm * across_mm).max(0.0).sqrt();
+            let mut place = [wall_mm; 2];
+            place[1 - axis] = centre[1 - axis] + side * along_mm;
+            (across_mm.abs() <= radius_mm).then_some(place)
+        };
+        let signs = [-1.0, 1.0];
+        let walls =
+            [0, 1].into_iter().flat_map(|axis| signs.map(|sign| (axis, sign * reach_mm[axis])));
+        let places =
+            walls.flat_map(|(axis, wall_mm)| signs.map(|side| on_wall(axis, wall_mm, side)));
+        let off_mm = |place: &[f64; 2]| {
+            let off = minus(*place, self.place_mm);
+            dot(off, off)
+        };
+        let nearest =
+            places.flatten().filter(is_on_table).min_by(|a, b| off_mm(a).total_cmp(&off_mm(b)));
+        nearest.unwrap_or(straight)
     }
 }
 

@@ -186,6 +186,21 @@ fn missing_frames_stop_neither_puck_nor_host() {
     assert!((30.0..45.0).contains(&moved_mm), "{moved_mm} mm in 0.4 s at 100 mm/s");
 }
 
+/// Pushed straight out of the mallet it would lie beyond the wall, and moved back from there on the mallet again.
+#[test]
+fn a_puck_that_a_mallet_pins_to_a_wall_lies_beside_both() {
+    for (x_mm, y_mm) in [(173.6, 24.5), (188.0, 20.0), (170.7, -3.0)] {
+        let rules = frictionless([x_mm, y_mm], [0.0; 2]);
+        let reach_mm = rules.puck_reach_mm();
+        let mut game = Game::new(rules, &[true, false]);
+        let mallets = [[-120.0, 0.0], [170.6, 20.0]];
+        play(&mut game, 4, |mallet, _| Some(mallets[mallet]));
+        let [x_mm, y_mm] = game.puck().place_mm;
+        assert!((x_mm - mallets[1][0]).hypot(y_mm - mallets[1][1]) > 25.0 - 1e-9, "{x_mm}, {y_mm}");
+        assert!(x_mm.abs() <= reach_mm[0] && y_mm.abs() <= reach_mm[1], "{x_mm}, {y_mm}");
+    }
+}
+
 fn energy(puck: Puck) -> f64 {
     puck.speed_mm_s().powi(2)
 }
