@@ -90,9 +90,7 @@ fn topics() -> Vec<CompletionCandidate> {
     pages.chain(tables.map(|table| candidate(table.path, table.says))).collect()
 }
 
-/// Tables whose keys have a place of their own in a scene, which a stimulus and forms of a position have not.
+/// Tables whose keys have a place of their own in a scene.
 fn tables() -> impl Iterator<Item = &'static Section> {
-    SECTIONS
-        .iter()
-        .filter(|table| !["stimulus", "pad."].iter().any(|form| table.path.starts_with(form)))
+    SECTIONS.iter().filter(|table| !table.is_form())
 }

@@ -211,6 +211,7 @@ impl Part {
     /// For a terminal: a table, or a line for each cell of a single row.
     fn text(&self) -> String {
         let rows = match &self.rows[..] {
+            [] => String::new(),
             [row] => {
                 let cells = self.head.iter().zip(row).filter(|(_, cell)| !cell.is_empty());
                 cells.map(|(head, cell)| format!("{head:8} {cell}\n")).collect()

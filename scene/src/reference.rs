@@ -58,13 +58,17 @@ impl Section {
         self.path.rsplit('.').next().unwrap_or_default()
     }
 
+    /// It is a form of keys' values, a stimulus or places of a pad, and no table that a scene has of its own.
+    pub fn is_form(&self) -> bool {
+        self.path.starts_with(STIMULUS) || self.path.starts_with("pad.")
+    }
+
     /// As a scene writes it: `[wall]`, `[[pad]]`, `stimulus.sine`.
     pub fn heading(&self) -> String {
-        let is_form = self.path.starts_with(STIMULUS) || self.path.starts_with("pad.");
         match (self.path, self.is_list) {
             ("", _) => "scene".to_string(),
             (path, true) => format!("[[{path}]]"),
-            (path, false) if is_form => path.to_string(),
+            (path, false) if self.is_form() => path.to_string(),
             (path, false) => format!("[{path}]"),
         }
     }
@@ -164,16 +168,13 @@ pub fn section(path: &str) -> Option<&'static Section> {
 
 /// What is said of a path that nothing in a scene reads, where it means something: what it needs, or where it belongs.
 pub(crate) fn elsewhere(path: &str) -> Option<String> {
-    let says = key(path).map(|(_, key)| key.says()).or_else(|| Some(section(path)?.says));
+    let table = || section(path).filter(|table| !table.is_form());
+    let says = key(path).map(|(_, key)| key.says()).or_else(|| Some(table()?.says));
     if let Some(says) = says {
         return Some(format!("without effect in this scene. What it is for: {says}"));
     }
     let name = path.rsplit('.').next().unwrap_or_default();
-    let places: Vec<_> =
-        SECTIONS.iter().filter_map(|table| Some((table, table.key(name)?))).collect();
-    let of_own =
-        |table: &Section| !["stimulus", "pad."].iter().any(|form| table.path.starts_with(form));
-    let (table, _) = places.into_iter().find(|(table, _)| of_own(table))?;
+    let table = SECTIONS.iter().find(|table| !table.is_form() && table.key(name).is_some())?;
     let at = match (table.path, table.is_list) {
         ("", _) => format!("a key of the scene, above its first table: {name}"),
         (path, true) => format!("a key of [[{path}]]: {path}.0.{name}"),

@@ -67,7 +67,7 @@ export class Knobs {
     const [row, slider, value] = [element('label', 'knob'), element('input'), element('output')];
     const decimals = input.unit === 'bits' ? 0 : Math.max(0, Math.ceil(-Math.log10((input.most - input.least) / 100)));
     Object.assign(slider, { type: 'range', min: input.least, max: input.most, step: 10 ** -decimals });
-    row.title = input.says ?? '';
+    if (input.says) row.title = input.says;
     row.append(element('span', '', input.label), slider, value);
     const show = () => write(value, `${fixed(Number(slider.value), decimals)} ${input.unit}`);
     const set = (number) => {

@@ -55,9 +55,6 @@ struct Walk<'a> {
     root: &'a Value,
 }
 
-/// A schema without references, and whether `null` stands for nothing in its place.
-type Resolved<'a> = (&'a Value, bool);
-
 impl<'a> Walk<'a> {
     fn whole(self, name: &str) -> Vec<Part> {
         match self.root["oneOf"].as_array() {
@@ -78,7 +75,7 @@ impl<'a> Walk<'a> {
 
     /// The table at a path, then those in it.
     fn tables(self, schema: &'a Value, path: &str, heading: &str) -> Vec<Part> {
-        let (body, _) = self.resolved(schema);
+        let body = self.resolved(schema);
         let (mut rows, mut inside) = (Vec::new(), Vec::new());
         for (name, property, form) in self.properties(schema, body) {
             let path = if path.is_empty() { name.to_string() } else { format!("{path}.{name}") };
@@ -121,33 +118,28 @@ impl<'a> Walk<'a> {
 
     /// What a property is or is a list of, and whether it is a list.
     fn item(self, property: &'a Value) -> (&'a Value, bool) {
-        let (of, _) = self.resolved(property);
-        let (item, _) = self.resolved(&of["items"]);
+        let of = self.resolved(property);
+        let item = self.resolved(&of["items"]);
         if item["properties"].is_object() { (item, true) } else { (of, false) }
     }
 
-    fn resolved(self, schema: &'a Value) -> Resolved<'a> {
+    /// What a schema refers to, and of what may be `null` the other form.
+    fn resolved(self, schema: &'a Value) -> &'a Value {
         if let Some(path) = schema["$ref"].as_str() {
             let name = path.rsplit('/').next().unwrap_or_default();
             return self.resolved(&self.root["$defs"][name]);
         }
-        let is_null = |of: &&Value| of["type"] == "null";
-        match schema["anyOf"].as_array() {
-            Some(forms) if forms.iter().any(|form| is_null(&form)) => {
-                let form = forms.iter().find(|form| !is_null(form)).expect("not null alone");
-                (self.resolved(form).0, true)
-            }
-            _ => (
-                schema,
-                schema["type"].as_array().is_some_and(|types| types.contains(&"null".into())),
-            ),
-        }
+        let forms = schema["anyOf"].as_array().into_iter().flatten();
+        forms
+            .into_iter()
+            .find(|form| form["type"] != "null")
+            .map_or(schema, |form| self.resolved(form))
     }
 
     fn row(self, name: &str, property: &'a Value, form: &Value, is_required: bool) -> Vec<String> {
-        let (kind, is_optional) = self.resolved(property);
+        let kind = self.resolved(property);
         let default = match &property["default"] {
-            Value::Null if is_required && !is_optional => "required".to_string(),
+            Value::Null if is_required => "required".to_string(),
             Value::Null => "none".to_string(),
             Value::String(word) => word.clone(),
             value => value.to_string(),
@@ -170,14 +162,14 @@ impl<'a> Walk<'a> {
             Some("boolean") => "true or false".into(),
             Some("string") => "text".into(),
             Some("array") => {
-                let of = self.values(self.resolved(&kind["items"]).0);
+                let of = self.values(self.resolved(&kind["items"]));
                 match kind["minItems"].as_u64() {
                     Some(count) if kind["maxItems"] == count => format!("{count} of: {of}"),
                     _ => format!("list of: {of}"),
                 }
             }
             Some("object") => {
-                let of = self.values(self.resolved(&kind["additionalProperties"]).0);
+                let of = self.values(self.resolved(&kind["additionalProperties"]));
                 format!("names, each with: {of}")
             }
             _ => String::new(),
