@@ -48,18 +48,15 @@ fn verilog() -> PathBuf {
 /// A bench of the vectors, and what it is compiled and run with.
 struct Users {
     folder: &'static str,
-    top: &'static str,
     bench: &'static str,
     options: &'static [&'static str],
     /// What the names of its vectors begin with.
     vectors: &'static str,
 }
 
-const SMALL: Users =
-    Users { folder: "small", top: "bench", bench: "bench.v", options: &[], vectors: "" };
+const SMALL: Users = Users { folder: "small", bench: "bench.v", options: &[], vectors: "" };
 const LOOP: Users = Users {
     folder: "loop",
-    top: "loop_bench",
     bench: "loop_bench.v",
     options: &["-DLOOP=hapticore_loop_loop", "-DWALLS"],
     vectors: "loop_",
@@ -82,7 +79,7 @@ fn compiled(users: &Users, design: &str) -> tempfile::TempDir {
         "-j",
         "2",
     ]);
-    verilator.args(["--top-module", users.top, "--Mdir", ".", "-o", "bench", "design.v"]);
+    verilator.args(["--top-module", "bench", "--Mdir", ".", "-o", "bench", "design.v"]);
     verilator.args(users.options).arg(format!("-I{}", verilog().join(users.folder).display()));
     tools::run(verilator.arg(verilog().join("cocotb").join(users.bench)), folder.path());
     for file in fs::read_dir(verilog().join("vectors")).expect("the vectors").flatten() {

@@ -17,5 +17,11 @@ fn main() -> Result<(), Error> {
     let folder = Path::new(&folder);
     common::trace(folder, Kind::Fst, &common::settings(), 2000);
     let (_, trace) = common::trace(folder, Kind::Vcd, &common::settings(), 2000);
-    gtkwave::save(&View::bundled("slot")?, &trace, "waves.vcd", &folder.join("waves.gtkw"))
+    gtkwave::save(
+        &View::bundled("slot")?,
+        &trace,
+        "waves.vcd",
+        &trace.ticks,
+        &folder.join("waves.gtkw"),
+    )
 }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What has changed since the last clock, and only that, into a waveform file.
 
-use hapticore_hdl::probe::Probe;
-
 use crate::Error;
 use crate::bits::masked;
 use crate::wave::Wave;
@@ -49,47 +47,34 @@ impl<W: Wave> Timed<W> {
     }
 }
 
-/// The codes of the probe: signals `0 ..` of the declarations.
+/// Codes of a probe, some of which are signals of the file.
 pub(crate) struct Codes {
-    widths: Vec<u8>,
-    now: Vec<i64>,
+    /// Of each code, its signal and its width.
+    signals: Vec<Option<(usize, u8)>>,
     /// Empty before the first clock traced.
     last: Vec<i64>,
 }
 
 impl Codes {
-    pub(crate) fn new(widths: Vec<u8>) -> Self {
-        let signals = widths.len();
-        Codes { widths, now: Vec::with_capacity(signals), last: Vec::with_capacity(signals) }
+    pub(crate) fn new(signals: Vec<Option<(usize, u8)>>) -> Self {
+        Codes { last: Vec::with_capacity(signals.len()), signals }
     }
 
-    pub(crate) fn signals(&self) -> usize {
-        self.widths.len()
-    }
-
-    /// Samples `probe` and writes what has changed since the last sample.
-    pub(crate) fn trace<W: Wave>(
-        &mut self,
-        probe: &impl Probe,
-        wave: &mut Timed<W>,
-    ) -> Result<(), Error> {
-        self.now.clear();
-        probe.sample(&mut self.now);
-        assert_eq!(
-            self.now.len(),
-            self.widths.len(),
-            "a probe samples as many codes as it declares variables"
-        );
+    /// Writes what has changed since the last call.
+    pub(crate) fn trace<W: Wave>(&mut self, now: &[i64], wave: &mut Timed<W>) -> Result<(), Error> {
+        assert_eq!(now.len(), self.signals.len(), "a probe samples as many codes as it declares");
         if self.last.is_empty() {
             // Other than any code, so that every first value is a change.
-            self.last.extend(self.now.iter().map(|code| !code));
+            self.last.extend(now.iter().map(|code| !code));
         }
-        for (signal, (&now, &last)) in self.now.iter().zip(&self.last).enumerate() {
-            if now != last {
-                wave.bits(signal, masked(now, self.widths[signal]))?;
+        for ((signal, &now), last) in self.signals.iter().zip(now).zip(&mut self.last) {
+            if let Some((signal, width)) = signal
+                && now != *last
+            {
+                wave.bits(*signal, masked(now, *width))?;
             }
+            *last = now;
         }
-        std::mem::swap(&mut self.now, &mut self.last);
         Ok(())
     }
 }
@@ -99,21 +84,28 @@ impl Codes {
 pub(crate) struct Truth {
     first: usize,
     now: Vec<f64>,
+    held: Vec<f64>,
     last: Vec<f64>,
 }
 
 impl Truth {
     pub(crate) fn new(first: usize, signals: usize) -> Self {
-        Truth { first, now: vec![f64::NAN; signals], last: vec![f64::NAN; signals] }
+        let none = vec![f64::NAN; signals];
+        Truth { first, now: none.clone(), held: none.clone(), last: none }
     }
 
     pub(crate) fn set(&mut self, index: usize, value: f64) {
         self.now[index] = value;
     }
 
-    /// Writes what has changed since the last call.
+    /// Keeps what is true now, to be written by [`Truth::trace`].
+    pub(crate) fn hold(&mut self) {
+        self.held.copy_from_slice(&self.now);
+    }
+
+    /// Writes what is held and has changed since the last call.
     pub(crate) fn trace<W: Wave>(&mut self, wave: &mut Timed<W>) -> Result<(), Error> {
-        for (index, (now, last)) in self.now.iter().zip(&mut self.last).enumerate() {
+        for (index, (now, last)) in self.held.iter().zip(&mut self.last).enumerate() {
             if now.to_bits() != last.to_bits() {
                 wave.real(self.first + index, *now)?;
                 *last = *now;

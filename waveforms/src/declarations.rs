@@ -4,7 +4,7 @@
 use std::collections::HashSet;
 
 use hapticore_hdl::format::{BIT, Format, MAX_WIDTH};
-use hapticore_hdl::probe::Variable;
+use hapticore_hdl::probe::{Signals, Variable};
 
 use crate::Error;
 use crate::timebase::Timebase;
@@ -111,26 +111,25 @@ pub struct Declarations {
 }
 
 impl Declarations {
-    /// The declarations of a probe's variables, then of the truth, then of a wire `clk` in the
-    /// first scope if asked for.
+    /// The declarations of a probe's registers and ports, then of the truth, then of the clock if
+    /// asked for: that of the probe, or a wire `clock` in the first scope.
     ///
     /// # Errors
     /// A name, a width or a repeated path that a viewer would misread.
     pub fn new(
-        variables: Vec<Variable>,
+        of_probe: Signals,
         truth: &[TruthVariable],
         clock_wire: bool,
         timebase: Timebase,
     ) -> Result<Self, Error> {
-        let mut signals: Vec<_> = variables.into_iter().map(Signal::of).collect();
+        let Signals { registers, ports, clock } = of_probe;
+        let shown = registers.into_iter().chain(ports).flatten();
+        let mut signals: Vec<_> = shown.map(Signal::of).collect();
         let top = signals.first().map_or(TOP, |first| &first.scope[0]).to_string();
         signals.extend(truth.iter().map(Signal::of_truth));
         if clock_wire {
-            signals.push(Signal {
-                scope: vec![top],
-                name: "clk".into(),
-                encoding: Encoding::Code(BIT),
-            });
+            let (scope, name) = clock.unwrap_or((vec![top], "clock"));
+            signals.push(Signal { scope, name: name.into(), encoding: Encoding::Code(BIT) });
         }
         check(&signals)?;
         Ok(Declarations { timebase, signals })
@@ -207,7 +206,9 @@ mod tests {
     }
 
     fn declare(variables: &[Variable], truth: &[TruthVariable]) -> Result<Declarations, Error> {
-        Declarations::new(variables.to_vec(), truth, true, Timebase::of_clock(1000)?)
+        let registers = variables.iter().cloned().map(Some).collect();
+        let of_probe = Signals { registers, ports: Vec::new(), clock: None };
+        Declarations::new(of_probe, truth, true, Timebase::of_clock(1000)?)
     }
 
     #[test]
@@ -225,7 +226,7 @@ mod tests {
                 Step::Leave => ")".into(),
             })
             .collect();
-        assert_eq!(text.concat(), "a(y clk b(x z ))top(c )truth(force )");
+        assert_eq!(text.concat(), "a(y clock b(x z ))top(c )truth(force )");
     }
 
     #[test]
@@ -239,7 +240,7 @@ mod tests {
             Err(Error::Width { width: 64, .. })
         ));
         assert!(
-            matches!(declare(&[variable(&["core", "clk"], 1)], &[]), Err(Error::Duplicate(path)) if path == "core.clk")
+            matches!(declare(&[variable(&["core", "clock"], 1)], &[]), Err(Error::Duplicate(path)) if path == "core.clock")
         );
     }
 }

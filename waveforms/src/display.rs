@@ -52,16 +52,28 @@ fn is_fixed_point(format: Format) -> bool {
         && format.integer_bits() >= LEAST_INTEGER_BITS
 }
 
-/// A name that says what the values shown are worth, where the values alone do not.
-pub(crate) fn alias(signal: &Signal) -> Option<String> {
+/// Instances that a row's name begins with, beside the signal's own.
+const NAMED_INSTANCES: usize = 2;
+
+/// What a row is called: the signal behind its block, without the instances above; and what the values shown are worth,
+/// where they alone do not say so.
+pub(crate) fn alias(signal: &Signal) -> String {
+    let instances = signal.scope.iter().map(|scope| scope.strip_prefix("u_").unwrap_or(scope));
+    let skipped = signal.scope.len().saturating_sub(NAMED_INSTANCES);
+    let blocks: Vec<_> = instances.skip(skipped).skip_while(|name| *name == BENCH).collect();
+    // GTKWave shows what is behind the last dot.
+    let name = format!("{}/{}", blocks.join("/"), signal.name);
     match &signal.encoding {
-        Encoding::Real(unit) if !unit.is_empty() => Some(format!("{} ({unit})", signal.path())),
+        Encoding::Real(unit) if !unit.is_empty() => format!("{name} ({unit})"),
         Encoding::Code(format) if format.frac != 0 && !is_fixed_point(*format) => {
-            Some(format!("{} (2^{})", signal.path(), -i16::from(format.frac)))
+            format!("{name} (2^{})", -i16::from(format.frac))
         }
-        _ => None,
+        _ => name,
     }
 }
+
+/// The scope around a core, which says nothing in a row's name.
+const BENCH: &str = "bench";
 
 /// The flags of a trace.
 pub(crate) fn flags(encoding: &Encoding, style: Style) -> u64 {

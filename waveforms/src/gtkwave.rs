@@ -3,12 +3,14 @@
 //!
 //! Codes are shown as the numbers they stand for, states by name, chosen signals as curves. The
 //! same save file opens the VCD and the FST of a run, from any working directory and wherever the
-//! folder is moved. Checked with GTKWave 3.3.118.
+//! folder is moved, and the dump of the printed Verilog in a bench of the same instances. Marks of
+//! the trace are markers A, B, …. Checked with GTKWave 3.3.118.
 //!
 //! GTKWave leaves a fraction below 0.0001 out of a fixed-point number (0.00001 shows as 0, 2.00001
 //! as 2; curves too). A format whose largest number is about that small is therefore shown as its
 //! raw code, with what one step is worth: `gain (2^-38)`; so are codes worth more than one.
 
+use std::ops::Range;
 use std::path::Path;
 
 use crate::Error;
@@ -20,7 +22,10 @@ use crate::view::{Style, View, ViewError};
 
 /// The width of the waves on a screen for the first zoom, in units of 200 pixels as GTKWave counts
 /// it.
-const SCREEN_FRAMES: f64 = 5.0;
+const SCREEN_FRAMES: f64 = 3.2;
+
+/// Letters of markers.
+const MARKERS: usize = 26;
 
 /// A folder that does not exist. GTKWave carries names over from the folder where the save file
 /// says it was saved to the one where it is found; a plain file name would be looked for in the
@@ -37,15 +42,20 @@ pub struct SaveFile {
 }
 
 impl SaveFile {
-    /// The save file that shows `trace` as `view` says; opened alone, it opens the file `dump`
-    /// beside it. Translation files get names that start as that of `dump`.
+    /// The save file that shows `ticks` of `trace` as `view` says; opened alone, it opens the file
+    /// `dump` beside it. Translation files get names that start as that of `dump`.
     ///
     /// # Errors
     /// The view names a signal that the trace does not have.
-    pub fn new(view: &View, trace: &Trace, dump: &str) -> Result<Self, ViewError> {
+    pub fn new(
+        view: &View,
+        trace: &Trace,
+        dump: &str,
+        ticks: &Range<u64>,
+    ) -> Result<Self, ViewError> {
         let stem = dump.rsplit_once('.').map_or(dump, |(stem, _)| stem);
-        let mut printer =
-            Printer { trace, stem, text: head(trace, dump), translations: Vec::new() };
+        let text = head(dump, ticks) + &markers(trace);
+        let mut printer = Printer { trace, stem, text, translations: Vec::new() };
         lay_out(view, &trace.declarations)?.iter().for_each(|section| printer.section(section));
         let translations = printer
             .translations
@@ -56,13 +66,19 @@ impl SaveFile {
     }
 }
 
-/// Writes the save file `path` and its translation files, for the waveform file `dump` in the same
-/// folder.
+/// Writes the save file `path` and its translation files, for `ticks` of the waveform file `dump` in
+/// the same folder.
 ///
 /// # Errors
 /// The view does not fit the trace, or a file cannot be written.
-pub fn save(view: &View, trace: &Trace, dump: &str, path: &Path) -> Result<(), Error> {
-    let file = SaveFile::new(view, trace, dump)?;
+pub fn save(
+    view: &View,
+    trace: &Trace,
+    dump: &str,
+    ticks: &Range<u64>,
+    path: &Path,
+) -> Result<(), Error> {
+    let file = SaveFile::new(view, trace, dump, ticks)?;
     for (name, text) in &file.translations {
         write(&path.with_file_name(name), text)?;
     }
@@ -103,10 +119,8 @@ impl Printer<'_> {
         self.flags(flags(&signal.encoding, row.style));
         self.attributes(signal, row);
         let path = viewer_path(signal);
-        match row.alias.clone().or_else(|| alias(signal)) {
-            Some(alias) => self.line(&format!("+{{{alias}}} {path}")),
-            None => self.line(&path),
-        }
+        let alias = row.alias.clone().unwrap_or_else(|| alias(signal));
+        self.line(&format!("+{{{alias}}} {path}"));
         self.height(row);
     }
 
@@ -145,9 +159,9 @@ impl Printer<'_> {
     }
 }
 
-fn head(trace: &Trace, dump: &str) -> String {
-    let start = trace.ticks.start;
-    let span = trace.ticks.end.saturating_sub(start).max(1) as f64;
+fn head(dump: &str, ticks: &Range<u64>) -> String {
+    let start = ticks.start;
+    let span = ticks.end.saturating_sub(start).max(1) as f64;
     let zoom = -(span / SCREEN_FRAMES).log2();
     format!(
         "[*] GTKWave save file, written by hapticore
@@ -156,12 +170,22 @@ fn head(trace: &Trace, dump: &str) -> String {
 [timestart] {start}
 [size] 1600 900
 [pos] -1 -1
-*{zoom:.6} {start} -1 -1
 [sst_width] 220
 [signals_width] 300
 [sst_expanded] 1
-"
+*{zoom:.6} -1"
     )
+}
+
+/// The ends of the line that begins with the zoom: ticks of markers, then their names.
+fn markers(trace: &Trace) -> String {
+    let marks = trace.marks.iter().take(MARKERS);
+    let mut text: String = marks.clone().map(|(_, tick)| format!(" {tick}")).collect();
+    text += "\n";
+    for ((name, _), letter) in marks.zip('A'..) {
+        text += &format!("[markername] {letter}{name}\n");
+    }
+    text
 }
 
 /// The lines `code NAME` of a translation file; codes in decimal, as the flags ask for.

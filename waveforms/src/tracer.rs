@@ -4,16 +4,17 @@
 //! ```text
 //!   clock      0     1     2     3
 //!   ticks      0     T     2T    3T      T = clock period
-//!   values    after clock 0, 1, 2, 3: what the registers hold until the next edge
+//!   registers  after clock 0, 1, 2, 3: what they hold until the next edge
+//!   ports      of clock    1, 2, 3, 4: what they have until the next edge
 //! ```
 //!
-//! Outside the window a clock costs a comparison: the probe is not sampled. Inside, every variable
-//! is compared with its last value and only changes are written. Nothing is allocated per clock
-//! here.
+//! So a clock is written when the next one is there. Outside the window a clock costs a comparison:
+//! the probe is not sampled. Inside, every signal is compared with its last value and only changes
+//! are written. Nothing is allocated per clock here.
 
 use std::ops::Range;
 
-use hapticore_hdl::probe::Probe;
+use hapticore_hdl::probe::{Probe, Variable};
 
 use crate::Error;
 use crate::changes::{Codes, Timed, Truth};
@@ -28,7 +29,7 @@ pub struct Settings {
     pub timebase: Timebase,
     /// The clocks to trace, counted from 0; all where `None`.
     pub window: Option<Range<u64>>,
-    /// Whether to add a wire `clk` to the first scope. It changes twice a clock, so a trace may
+    /// Whether to add the clock, in the scope of the ports. It changes twice a clock, so a trace may
     /// double in size.
     pub clock_wire: bool,
 }
@@ -50,6 +51,8 @@ pub struct Trace {
     pub declarations: Declarations,
     /// The ticks that the file covers.
     pub ticks: Range<u64>,
+    /// Names of moments and their ticks.
+    pub marks: Vec<(&'static str, u64)>,
 }
 
 /// Writes the waves of one simulation into one file.
@@ -62,26 +65,40 @@ pub struct Tracer<W: Wave> {
     clock: u64,
     /// The clocks traced so far.
     traced: Option<Range<u64>>,
-    codes: Codes,
+    /// The clock that is yet to be written, and what registers held after it.
+    pending: Option<u64>,
+    held: Vec<i64>,
+    registers: Codes,
+    ports: Codes,
+    port_codes: Vec<i64>,
     truth: Truth,
+    marks: Vec<(&'static str, u64)>,
     failed: bool,
 }
 
 impl<W: Wave> Tracer<W> {
-    /// Declares the variables of `probe` and the truth in `wave`.
+    /// Declares the signals of `probe` and the truth in `wave`.
     ///
     /// # Errors
-    /// A variable that a viewer would misread, or a file that cannot be written.
+    /// A signal that a viewer would misread, or a file that cannot be written.
     pub fn new(
         mut wave: W,
         probe: &impl Probe,
         truth: &[TruthVariable],
         settings: &Settings,
     ) -> Result<Self, Error> {
-        let variables = probe.variables();
-        let codes = Codes::new(variables.iter().map(|variable| variable.format.width).collect());
+        let of_probe = probe.signals();
+        let mut signals = 0;
+        let mut numbered = |variables: &[Option<Variable>]| {
+            let mut number = |variable: &Variable| {
+                signals += 1;
+                (signals - 1, variable.format.width)
+            };
+            Codes::new(variables.iter().map(|of| of.as_ref().map(&mut number)).collect())
+        };
+        let (registers, ports) = (numbered(&of_probe.registers), numbered(&of_probe.ports));
         let declarations =
-            Declarations::new(variables, truth, settings.clock_wire, settings.timebase)?;
+            Declarations::new(of_probe, truth, settings.clock_wire, settings.timebase)?;
         wave.begin(&declarations)?;
         Ok(Tracer {
             wave: Timed::new(wave),
@@ -90,8 +107,13 @@ impl<W: Wave> Tracer<W> {
             declarations,
             clock: 0,
             traced: None,
-            truth: Truth::new(codes.signals(), truth.len()),
-            codes,
+            pending: None,
+            held: Vec::new(),
+            registers,
+            ports,
+            port_codes: Vec::new(),
+            truth: Truth::new(signals, truth.len()),
+            marks: Vec::new(),
             failed: false,
         })
     }
@@ -106,12 +128,34 @@ impl<W: Wave> Tracer<W> {
     pub fn clock(&mut self, probe: &impl Probe) -> Result<(), Error> {
         let clock = self.clock;
         self.clock += 1;
-        if !self.window.contains(&clock) {
+        let in_window = self.window.contains(&clock);
+        if !in_window && self.pending.is_none() {
             return Ok(());
         }
-        let outcome = self.trace(clock, probe);
+        let outcome = self.write_pending(Some((clock, probe)));
+        if in_window {
+            self.hold(clock, probe);
+        }
         self.failed |= outcome.is_err();
         outcome
+    }
+
+    /// Gives the last clock a name, unless one has it already; only where it lies in the window.
+    pub fn mark_once(&mut self, name: &'static str) {
+        if let Some(clock) = self.pending.filter(|_| !self.is_marked(name)) {
+            self.marks.push((name, self.declarations.timebase().ticks(clock)));
+        }
+    }
+
+    /// As [`Tracer::mark_once`], where there is a mark `first`.
+    pub fn mark_after(&mut self, first: &str, name: &'static str) {
+        if self.is_marked(first) {
+            self.mark_once(name);
+        }
+    }
+
+    fn is_marked(&self, name: &str) -> bool {
+        self.marks.iter().any(|(marked, _)| *marked == name)
     }
 
     /// Passes over clocks that the simulation did untraced. The trace holds its values there.
@@ -141,21 +185,38 @@ impl<W: Wave> Tracer<W> {
         if self.failed {
             return Err(Error::Incomplete);
         }
+        self.write_pending(None::<(u64, &NoProbe)>)?;
         let clocks = self.traced.ok_or(Error::Empty { window: self.window, clocks: self.clock })?;
         let timebase = self.declarations.timebase();
         let ticks = timebase.ticks(clocks.start)..timebase.ticks(clocks.end);
         self.wave.finish(ticks.end)?;
-        Ok(Trace { declarations: self.declarations, ticks })
+        Ok(Trace { declarations: self.declarations, ticks, marks: self.marks })
     }
 
-    fn trace(&mut self, clock: u64, probe: &impl Probe) -> Result<(), Error> {
-        let timebase = self.declarations.timebase();
+    /// Keeps what registers hold after a clock, until the next one shows the ports.
+    fn hold(&mut self, clock: u64, probe: &impl Probe) {
         self.traced = Some(self.traced.as_ref().map_or(clock, |traced| traced.start)..clock + 1);
+        self.held.clear();
+        probe.sample(&mut self.held);
+        self.truth.hold();
+        self.pending = Some(clock);
+    }
+
+    /// Writes the clock before `next`, with the ports that `next` has shown.
+    fn write_pending(&mut self, next: Option<(u64, &impl Probe)>) -> Result<(), Error> {
+        let Some(clock) = self.pending.take() else { return Ok(()) };
+        let timebase = self.declarations.timebase();
         self.wave.at(timebase.ticks(clock));
         if let Some(wire) = self.clock_wire {
             self.wave.bits(wire, 1)?;
         }
-        self.codes.trace(probe, &mut self.wave)?;
+        self.registers.trace(&self.held, &mut self.wave)?;
+        // Of clocks that are passed over nothing is known.
+        if let Some((_, probe)) = next.filter(|(next, _)| *next == clock + 1) {
+            self.port_codes.clear();
+            probe.sample_ports(&mut self.port_codes);
+            self.ports.trace(&self.port_codes, &mut self.wave)?;
+        }
         self.truth.trace(&mut self.wave)?;
         if let Some(wire) = self.clock_wire {
             self.wave.at(timebase.half_ticks(2 * clock + 1));
@@ -163,4 +224,15 @@ impl<W: Wave> Tracer<W> {
         }
         Ok(())
     }
+}
+
+/// What shows no ports.
+struct NoProbe;
+
+impl Probe for NoProbe {
+    fn variables(&self) -> Vec<Variable> {
+        Vec::new()
+    }
+
+    fn sample(&self, _codes: &mut Vec<i64>) {}
 }

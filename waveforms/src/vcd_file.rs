@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! VCD: a value change dump (IEEE 1364-2005, clause 18).
+//!
+//! A comment before the variables names the format of each code: `core.oscillator.cosine s18.17`. The values of the first
+//! time stand in `$dumpvars`.
 
 use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use hapticore_files::AtomicFile;
-use vcd::{IdCode, TimescaleUnit, VarType, Writer};
+use vcd::{IdCode, SimulationCommand, TimescaleUnit, VarType, Writer};
 
 use crate::Error;
 use crate::bits::digits;
-use crate::declarations::{Declarations, Signal, Step};
+use crate::declarations::{Declarations, Encoding, Signal, Step};
 use crate::wave::{BUFFER_BYTES, Wave};
 
 /// The longest change line: `b`, 63 digits, a space, an id, a newline.
@@ -22,10 +25,20 @@ const LINE_BYTES: usize = 80;
 /// through the formatter, which takes eight times as long.
 pub struct VcdFile {
     writer: Writer<BufWriter<File>>,
+    values: Values,
     variables: Vec<Variable>,
     /// None once it has its name.
     partial: Option<AtomicFile>,
     path: PathBuf,
+}
+
+/// Which values come.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Values {
+    None,
+    /// Those of the first time.
+    First,
+    Changes,
 }
 
 struct Variable {
@@ -44,12 +57,15 @@ impl VcdFile {
         let partial = AtomicFile::create(path).map_err(Error::io(path))?;
         let file = partial.reopen().map_err(Error::io(path))?;
         let writer = Writer::new(BufWriter::with_capacity(BUFFER_BYTES, file));
-        Ok(VcdFile { writer, variables: Vec::new(), partial: Some(partial), path: path.to_owned() })
+        let (values, variables) = (Values::None, Vec::new());
+        let (partial, path) = (Some(partial), path.to_owned());
+        Ok(VcdFile { writer, values, variables, partial, path })
     }
 
     fn header(&mut self, declarations: &Declarations) -> std::io::Result<()> {
         self.writer.version("hapticore")?;
         self.writer.timescale(1, unit(declarations.timebase().exponent()))?;
+        self.writer.comment(&formats(declarations))?;
         self.variables = declarations
             .signals()
             .iter()
@@ -64,6 +80,22 @@ impl VcdFile {
             }
         }
         self.writer.enddefinitions()
+    }
+
+    /// A time, and the ends of `$dumpvars` around the first.
+    fn stamp(&mut self, ticks: u64) -> std::io::Result<()> {
+        if self.values == Values::First {
+            self.writer.end()?;
+        }
+        self.writer.timestamp(ticks)?;
+        self.values = match self.values {
+            Values::None => {
+                self.writer.begin(SimulationCommand::Dumpvars)?;
+                Values::First
+            }
+            _ => Values::Changes,
+        };
+        Ok(())
     }
 
     fn declare(&mut self, index: usize, signal: &Signal) -> std::io::Result<()> {
@@ -81,7 +113,7 @@ impl Wave for VcdFile {
     }
 
     fn time(&mut self, ticks: u64) -> Result<(), Error> {
-        self.writer.timestamp(ticks).map_err(Error::io(&self.path))
+        self.stamp(ticks).map_err(Error::io(&self.path))
     }
 
     fn bits(&mut self, signal: usize, bits: u64) -> Result<(), Error> {
@@ -119,6 +151,19 @@ impl Variable {
         line[length..length + self.tail.len()].copy_from_slice(&self.tail);
         length + self.tail.len()
     }
+}
+
+/// The paths of codes and their formats, a line each.
+fn formats(declarations: &Declarations) -> String {
+    let mut lines = String::from(
+        "formats, two's complement: sWIDTH.FRACTION with a sign, uWIDTH.FRACTION without\n",
+    );
+    for signal in declarations.signals() {
+        if let Encoding::Code(format) | Encoding::State(format, _) = &signal.encoding {
+            lines += &format!("{} {format}\n", signal.path());
+        }
+    }
+    lines
 }
 
 fn unit(exponent: i8) -> TimescaleUnit {

@@ -99,6 +99,9 @@ pub struct Group {
     /// Whether signals that the trace does not have are passed over; else they are errors.
     #[serde(default)]
     pub optional: bool,
+    /// Whether it shows what happens within a window: closed where results are to be seen.
+    #[serde(default)]
+    pub window: bool,
     /// The signals from top to bottom.
     pub signals: Vec<Entry>,
 }
@@ -185,6 +188,11 @@ impl View {
                 known: View::names().collect::<Vec<_>>().join(", "),
             }),
         }
+    }
+
+    /// Closes the groups that show what happens within a window.
+    pub fn close_windows(&mut self) {
+        self.groups.iter_mut().for_each(|group| group.closed |= group.window);
     }
 
     /// The names of the bundled views.

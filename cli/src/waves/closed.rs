@@ -17,7 +17,7 @@ use hapticore_waveforms::tracer::{Trace, Tracer};
 use hapticore_waveforms::wave::Wave;
 use indicatif::ProgressBar;
 
-use super::{Slots, truth};
+use super::{Slots, mark, truth};
 
 /// Traces the slots of a case with a controller.
 ///
@@ -60,11 +60,21 @@ fn step<W: Wave>(
         core.set_surface(made.slot.pad, surface);
     }
     let (_, drive) = core.slot_with(made.slot.window(), |core| {
-        if clocks.next() == Some(window_clocks) {
+        let ends = clocks.next() == Some(window_clocks);
+        if ends {
             truth::set(tracer, &made.truth);
         }
         if outcome.is_ok() {
             outcome = tracer.clock(core);
+        }
+        if ends {
+            tracer.mark_once(mark::WINDOW);
+        }
+        if core.has_drive() {
+            tracer.mark_after(mark::WINDOW, mark::DRIVE);
+        }
+        if core.has_frame() {
+            tracer.mark_after(mark::WINDOW, mark::FRAME);
         }
     });
     outcome?;

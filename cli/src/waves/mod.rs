@@ -23,7 +23,7 @@ use anyhow::{Result, bail};
 use hapticore_waveforms::gtkwave;
 use hapticore_waveforms::kind::Kind;
 use hapticore_waveforms::timebase::Timebase;
-use hapticore_waveforms::tracer::Settings;
+use hapticore_waveforms::tracer::{Settings, Trace};
 use hapticore_waveforms::view::View;
 
 use crate::print::number;
@@ -31,12 +31,13 @@ use crate::progress;
 use hapticore_model::blocks::core::Core;
 use hapticore_run::case::Case;
 
-/// Slots traced where no window is named.
+/// Slots traced where no window is named, and of a case whose pads have targets.
 const SLOTS: u64 = 2;
+const SLOTS_OF_LOOP: u64 = 4;
 
 /// What a clock takes in a file, about, as measured on `hockey` with profile `standard`.
-const VCD_BYTES_PER_CLOCK: f64 = 85.0;
-const FST_BYTES_PER_CLOCK: f64 = 8.0;
+const VCD_BYTES_PER_CLOCK: f64 = 128.0;
+const FST_BYTES_PER_CLOCK: f64 = 10.0;
 
 /// A file of more bytes is worth a warning.
 const LARGE_BYTES: f64 = 2e8;
@@ -77,7 +78,7 @@ impl fmt::Display for Extent {
 /// A window in which the case has no slot.
 pub fn extent(case: &Case, kind: Kind, window: Option<&Range<f64>>) -> Result<Extent> {
     let clock_hz = clock_hz(case);
-    let clocks = clocks(case, window, clock_hz);
+    let clocks = clocks(case, window, clock_hz)?;
     let clocks = clocks.start..clocks.end.min(case.slots as u64 * case.profile.slot_clocks());
     if clocks.is_empty() {
         bail!("--waves-window: expected a window within the case's {} s", case.seconds());
@@ -92,8 +93,8 @@ fn clock_hz(case: &Case) -> f64 {
     case.device.device.sample_rate_hz * case.profile.clocks_per_sample as f64
 }
 
-/// Writes `waves.vcd` or `waves.fst` and `waves.gtkw` into `folder`: the window in seconds, the
-/// first slots where none is named.
+/// Writes `waves.vcd` or `waves.fst` into `folder`: the window in seconds, the first slots where
+/// none is named. `waves.gtkw` shows all of it, `waves.results.gtkw` what follows the first window.
 ///
 /// # Errors
 /// A window in which the case has no slot, a file that cannot be written, an interruption.
@@ -113,7 +114,27 @@ pub fn trace(
         Some(tuning) => (closed::trace(case, &tuning, &slots, wave, &bar)?, "force_loop"),
     };
     bar.finish_and_clear();
-    Ok(gtkwave::save(&View::bundled(view)?, &trace, &name, &folder.join("waves.gtkw"))?)
+    let mut view = View::bundled(view)?;
+    gtkwave::save(&view, &trace, &name, &trace.ticks, &folder.join("waves.gtkw"))?;
+    if let Some(ticks) = results(&trace) {
+        view.close_windows();
+        gtkwave::save(&view, &trace, &name, &ticks, &folder.join("waves.results.gtkw"))?;
+    }
+    Ok(())
+}
+
+/// Marks of a trace: the last sample of a slot's window, and what the core gives of that slot.
+mod mark {
+    pub const WINDOW: &str = "window end";
+    pub const DRIVE: &str = "drive word";
+    pub const FRAME: &str = "frame";
+}
+
+/// The microseconds from the end of a window to the last of its results, with a tenth around them.
+fn results(trace: &Trace) -> Option<Range<u64>> {
+    let [(_, first), .., (_, last)] = trace.marks[..] else { return None };
+    let around = (last - first) / 10;
+    Some(first.saturating_sub(around)..last + around)
 }
 
 /// The slots that a window lies in.
@@ -127,29 +148,46 @@ struct Slots {
 
 fn slots(case: &Case, window: Option<&Range<f64>>) -> Result<Slots> {
     let (profile, clock_hz) = (&case.profile, clock_hz(case));
-    let clocks = clocks(case, window, clock_hz);
+    let clocks = clocks(case, window, clock_hz)?;
     let first = clocks.start / profile.slot_clocks() / profile.pads * profile.pads;
     let end = clocks.end.div_ceil(profile.slot_clocks()).min(case.slots as u64);
     if first >= end {
         bail!("--waves-window: expected a window within the case's {} s", case.seconds());
     }
     let timebase = Timebase::of_clock(clock_hz.round() as u64)?;
-    let settings = Settings { timebase, window: Some(clocks), clock_wire: false };
+    let settings = Settings { timebase, window: Some(clocks), clock_wire: true };
     Ok(Slots { first, end, settings })
 }
 
 /// The clocks to trace: by default the first slots and as much of the next as it takes for their
-/// frames to be there.
-fn clocks(case: &Case, window: Option<&Range<f64>>, clock_hz: f64) -> Range<u64> {
+/// frames to be there; of a case whose pads have targets, from the slot before the first of them.
+fn clocks(case: &Case, window: Option<&Range<f64>>, clock_hz: f64) -> Result<Range<u64>> {
     let profile = &case.profile;
-    match window {
-        Some(seconds) => {
+    if let Some(seconds) = window {
+        return Ok(
             (seconds.start * clock_hz).floor() as u64..(seconds.end * clock_hz).ceil() as u64
-        }
-        None => {
-            let blanking = profile.slot.blanking() * profile.clocks_per_sample;
-            let frame = Core::new(profile).latency();
-            0..SLOTS * profile.slot_clocks() + blanking.max(frame)
-        }
+        );
     }
+    let (first, slots) = match first_target(case)? {
+        Some(slot) => (slot.saturating_sub(1) / profile.pads * profile.pads, SLOTS_OF_LOOP),
+        None => (0, SLOTS),
+    };
+    let blanking = profile.slot.blanking() * profile.clocks_per_sample;
+    let frame = Core::new(profile).latency();
+    let start = first * profile.slot_clocks();
+    Ok(start..start + slots * profile.slot_clocks() + blanking.max(frame))
+}
+
+/// The first slot at whose end a pad has a target.
+fn first_target(case: &Case) -> Result<Option<u64>> {
+    if case.profile.control.is_none() {
+        return Ok(None);
+    }
+    let (plant, pads) = (case.plant()?, case.profile.pads);
+    let slot_s = case.seconds() / case.slots as f64;
+    let has_target = |slot: &u64| {
+        let (pad, end_s) = ((slot % pads) as usize, (slot + 1) as f64 * slot_s);
+        plant.target_n(pad, end_s) > 0.0
+    };
+    Ok((0..case.slots as u64).find(has_target))
 }

@@ -15,7 +15,7 @@ use hapticore_waveforms::tracer::{Trace, Tracer};
 use hapticore_waveforms::wave::Wave;
 use indicatif::ProgressBar;
 
-use super::{Slots, truth};
+use super::{Slots, mark, truth};
 
 /// Traces the slots of a case.
 ///
@@ -41,6 +41,9 @@ pub fn trace<W: Wave>(case: &Case, slots: &Slots, wave: W, bar: &ProgressBar) ->
             }
             if let (Signals::Samples { codes, .. }, _) = maker.sample(slot as usize) {
                 step(&mut core, &mut tracer, &codes, profile.channels())?;
+                // What the next slot brings is the frame of this one.
+                core.take_frame();
+                tracer.mark_once(mark::WINDOW);
             }
         }
     }
@@ -58,6 +61,9 @@ fn step<W: Wave>(
         core.sample_with(codes, |core| {
             if outcome.is_ok() {
                 outcome = tracer.clock(core);
+            }
+            if core.has_frame() {
+                tracer.mark_after(mark::WINDOW, mark::FRAME);
             }
         });
     }

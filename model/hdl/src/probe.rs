@@ -3,10 +3,19 @@
 //!
 //! Names, formats, units and state names come from the bundles that declare registers and ports. A
 //! probe only observes: it takes no part in the simulation, and costs nothing where no tracer reads
-//! it.
+//! it. A simulation of a block also gives the [signals of its printed
+//! design](crate::verilog::dump), registers and ports, so that its waves and a dump of the Verilog
+//! have the same names.
+//!
+//! ```text
+//! clock      n         n+1
+//! edge       |         |
+//! registers  ⟨ sample after clock n    ⟩
+//! ports      ⟨ sample_ports after n+1  ⟩     inputs of clock n+1, outputs that follow from them
+//! ```
 
-use crate::block::{Block, Interpretation, State, Submodule, Visitor};
-use crate::bundle::Field;
+use crate::block::{Block, Inputs, Interface, Interpretation, Outputs, State, Submodule, Visitor};
+use crate::bundle::{Bundle, Field};
 use crate::format::Format;
 
 /// One named variable of a simulation.
@@ -29,6 +38,26 @@ pub trait Probe {
 
     /// Appends the present code of each variable.
     fn sample(&self, codes: &mut Vec<i64>);
+
+    /// What waves show of it: its variables, unless it has a printed design.
+    fn signals(&self) -> Signals {
+        let registers = self.variables().into_iter().map(Some).collect();
+        Signals { registers, ports: Vec::new(), clock: None }
+    }
+
+    /// Appends the code that each port of [`Probe::signals`] had until the edge of the last clock.
+    fn sample_ports(&self, _codes: &mut Vec<i64>) {}
+}
+
+/// What waves show of a simulation.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Signals {
+    /// For each code of [`Probe::sample`], its signal; none where it is not shown.
+    pub registers: Vec<Option<Variable>>,
+    /// For each code of [`Probe::sample_ports`], likewise.
+    pub ports: Vec<Option<Variable>>,
+    /// Scope and name of the clock, where it is known.
+    pub clock: Option<(Vec<String>, &'static str)>,
 }
 
 /// The variables of a block and all within it, the block itself being the scope `name`.
@@ -63,6 +92,23 @@ pub fn variables<B: Block>(block: &B, name: &'static str) -> Vec<Variable> {
     let mut names = Names { scope: Vec::new(), found: Vec::new() };
     block.visit(name, &block.reset(), &mut names);
     names.found
+}
+
+/// Appends the reset, which a running simulation does not assert, and the ports of a block, in the order of
+/// [`crate::verilog::dump::signals`].
+pub fn sample_ports<B: Interface>(
+    block: &B,
+    (inputs, outputs): &(Inputs<B, i64>, Outputs<B, i64>),
+    into: &mut Vec<i64>,
+) {
+    into.push(0);
+    let mut port = |(format, code): (Format, i64)| {
+        if !format.is_none() {
+            into.push(code);
+        }
+    };
+    B::Inputs::each(B::Inputs::zip(block.inputs(), *inputs), |_, code| port(code));
+    B::Outputs::each(B::Outputs::zip(block.outputs(), *outputs), |_, code| port(code));
 }
 
 /// Appends what the registers of a block and of all within it hold, in the order of [`variables`].

@@ -9,8 +9,10 @@ use hapticore_contract::calibration::Calibration;
 use hapticore_contract::frame::Frame;
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::block::{self, Block};
-use hapticore_hdl::probe::{Probe, Variable, sample, variables};
+use hapticore_hdl::bundle::Bundle;
+use hapticore_hdl::probe::{Probe, Signals, Variable, sample, sample_ports, variables};
 use hapticore_hdl::signal::{Signal, bit};
+use hapticore_hdl::verilog::dump;
 
 /// A core at work, clock by clock. Its memory does not grow with time.
 pub struct ClockSimulation {
@@ -27,6 +29,8 @@ struct State {
     core: block::State<Core, i64>,
     /// The channel that was asked for last.
     channel: usize,
+    /// The codes at the core's ports in the last clock that was done by itself.
+    ports: (Inputs<i64>, Outputs<i64>),
     results: Results,
 }
 
@@ -49,7 +53,12 @@ impl ClockSimulation {
             core,
             clocks_per_sample: profile.clocks_per_sample,
             channels: profile.channels(),
-            state: State { core: state, channel: 0, results: Results::default() },
+            state: State {
+                core: state,
+                channel: 0,
+                ports: (Inputs::of(0), Outputs::of(0)),
+                results: Results::default(),
+            },
         }
     }
 
@@ -74,6 +83,11 @@ impl ClockSimulation {
             self.state.clock(&self.core, &self.inputs, count == 0, codes);
             look(self);
         }
+    }
+
+    /// Whether a frame has been finished since the last call of [`ClockSimulation::take_frame`].
+    pub fn has_frame(&self) -> bool {
+        self.state.results.frame.is_some()
     }
 
     /// The frame that has been finished since the last call.
@@ -117,7 +131,7 @@ impl State {
     /// Not inlined: what it borrows is then known to be apart.
     #[inline(never)]
     fn samples(&mut self, core: &Core, inputs: &Inputs<Signal<i64>>, codes: &[i32]) {
-        let State { core: state, channel, results } = self;
+        let State { core: state, channel, results, .. } = self;
         core.samples(state, inputs, codes, channel, results);
     }
 
@@ -125,6 +139,8 @@ impl State {
         let inputs = self.inputs_for_cycle(inputs, strobe, codes);
         let outputs = core.step(&mut self.core, inputs);
         self.channel = outputs.channel.value as usize;
+        self.ports =
+            (Inputs::map(inputs, |port| port.value), Outputs::map(outputs, |port| port.value));
         self.results.outputs(outputs);
     }
 
@@ -165,5 +181,13 @@ impl Probe for ClockSimulation {
 
     fn sample(&self, codes: &mut Vec<i64>) {
         sample(&self.core, &self.state.core, codes);
+    }
+
+    fn signals(&self) -> Signals {
+        dump::signals(&self.core, &["bench", "core"])
+    }
+
+    fn sample_ports(&self, codes: &mut Vec<i64>) {
+        sample_ports(&self.core, &self.state.ports, codes);
     }
 }

@@ -21,8 +21,9 @@ use hapticore_contract::profile::{Profile, ProfileError};
 use hapticore_hdl::block::{Block, State};
 use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::Format;
-use hapticore_hdl::probe::{Probe, Variable, sample, variables};
+use hapticore_hdl::probe::{Probe, Signals, Variable, sample, sample_ports, variables};
 use hapticore_hdl::signal::{Signal, bit};
+use hapticore_hdl::verilog::dump;
 
 /// The tuning's words as codes, all drives on, nothing written.
 pub fn tuning_codes(
@@ -258,6 +259,8 @@ struct ClockState {
     block: State<ForceLoop, i64>,
     /// The channel that was asked for last.
     channel: usize,
+    /// The codes at the loop's ports in the last clock that was done by itself.
+    ports: (Inputs<i64>, Outputs<i64>),
     results: Results,
 }
 
@@ -292,7 +295,12 @@ impl ClockLoop {
         };
         let channels = profile.channels();
         let mut of = ClockLoop {
-            state: ClockState { block: block.reset(), channel: 0, results: Results::default() },
+            state: ClockState {
+                block: block.reset(),
+                channel: 0,
+                ports: (Inputs::of(0), Outputs::of(0)),
+                results: Results::default(),
+            },
             inputs: signals::<Inputs, i64>(codes, formats),
             clocks_per_sample: profile.clocks_per_sample,
             silence: vec![0; profile.slot.blanking() as usize * channels],
@@ -352,8 +360,10 @@ impl ClockLoop {
     }
 
     fn step(&mut self, inputs: Inputs<Signal<i64>>) {
-        let Outputs { core, drive, extremes, faults } =
-            self.block.step(&mut self.state.block, inputs);
+        let outputs = self.block.step(&mut self.state.block, inputs);
+        let codes = |port: Signal<i64>| port.value;
+        self.state.ports = (Inputs::map(inputs, codes), Outputs::map(outputs, codes));
+        let Outputs { core, drive, extremes, faults } = outputs;
         self.state.channel = core.channel.value as usize;
         self.state.results.collect(Some(&core), Some(drives::Outputs { drive, extremes, faults }));
     }
@@ -380,6 +390,16 @@ impl ClockLoop {
             }
         }
         self.results()
+    }
+
+    /// Whether the slot that is under way has given its drive word.
+    pub fn has_drive(&self) -> bool {
+        self.state.results.drive.is_some()
+    }
+
+    /// Whether a frame has been finished in the slot that is under way.
+    pub fn has_frame(&self) -> bool {
+        self.state.results.frame.is_some()
     }
 
     /// Runs on without samples until the last slot's frame is there, where it is still to come.
@@ -421,7 +441,7 @@ impl ClockState {
     /// Not inlined: what it borrows is then known to be apart.
     #[inline(never)]
     fn samples(&mut self, block: &ForceLoop, inputs: &Inputs<Signal<i64>>, codes: &[i32]) {
-        let ClockState { block: state, channel, results } = self;
+        let ClockState { block: state, channel, results, .. } = self;
         block.samples(state, inputs, codes, channel, &mut |core, drives| {
             results.collect(core, drives)
         });
@@ -464,5 +484,13 @@ impl Probe for ClockLoop {
 
     fn sample(&self, codes: &mut Vec<i64>) {
         sample(&self.block, &self.state.block, codes);
+    }
+
+    fn signals(&self) -> Signals {
+        dump::signals(&self.block, &["bench", "force_loop"])
+    }
+
+    fn sample_ports(&self, codes: &mut Vec<i64>) {
+        sample_ports(&self.block, &self.state.ports, codes);
     }
 }

@@ -116,6 +116,12 @@ module bench;
         end
     endtask
 
+    // With +waves what the bench and all within it do is written into waves.vcd.
+    initial if ($test$plusargs("waves")) begin
+        $dumpfile("waves.vcd");
+        $dumpvars(0, bench);
+    end
+
     initial begin
         words = 0;
         wrong = 0;

@@ -12,12 +12,12 @@
 //
 // Reads them from the folder it runs in and writes got.csv, in the columns of drives.csv. Compile with the folder of the printed
 // loop on the include path (hapticore.vh), its top module as LOOP, and WALLS where its profile has walls:
-//   iverilog -g2005 -I loop -DLOOP=hapticore_loop_loop -DWALLS -s loop_bench loop/*.v cocotb/loop_bench.v
+//   iverilog -g2005 -I loop -DLOOP=hapticore_loop_loop -DWALLS -s bench loop/*.v cocotb/loop_bench.v
 
 `timescale 1ns / 1ps
 `default_nettype none
 
-module loop_bench;
+module bench;
     `include "hapticore.vh"
 
     reg clock = 0, reset = 1, strobe = 0, clear = 0, write = 0, target_write = 0, alive = 0, clear_faults = 0, enable = 0,
@@ -57,7 +57,7 @@ module loop_bench;
     reg signed [HAPTICORE_WALL_FACTORY_BITS-1:0] wall_factory = 0;
 `endif
 
-    `LOOP loop (
+    `LOOP force_loop (
         .clock(clock), .reset(reset), .strobe(strobe), .clear(clear), .code(code), .capacitance_gain(capacitance_gain),
         .force_gain(force_gain), .contact_capacitance(contact_capacitance), .write(write), .address(address), .word(word), .target_write(target_write),
         .target_pad(target_pad), .target_word(target_word), .alive(alive), .clear_faults(clear_faults), .enable(enable),
@@ -257,6 +257,12 @@ module loop_bench;
             skip_line(file);
         end
     endtask
+
+    // With +waves what the bench and all within it do is written into waves.vcd.
+    initial if ($test$plusargs("waves")) begin
+        $dumpfile("waves.vcd");
+        $dumpvars(0, bench);
+    end
 
     initial begin
         driven = 0;

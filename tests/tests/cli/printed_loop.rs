@@ -9,6 +9,7 @@ use std::process::Command;
 use hapticore_contract::profile::Profile;
 use hapticore_tests::tools;
 use serde_json::Value;
+use wellen::simple::Waveform;
 
 use crate::{Table, expect, finish, refuse};
 
@@ -21,7 +22,7 @@ const FULL_SCALE_V: f64 = 500.0;
 fn simulate(folder: &Path, seconds: &str) {
     let set = format!("duration_s={seconds}");
     let args = ["simulate", "fig9", "--case", CASE, "--set", &set, "--capture", "samples.csv"];
-    finish(folder, &[&args[..], &["--out", "run"]].concat());
+    finish(folder, &[&args[..], &["--waves", "vcd", "--out", "run"]].concat());
 }
 
 /// Prints the loop and what feeds it; the top module.
@@ -34,18 +35,33 @@ fn print(folder: &Path) -> String {
     told["top"].as_str().expect("a module").to_owned()
 }
 
-/// Of each slot a tick, since slots are a millisecond long, and the target, written before its last sample.
+/// Of each slot a tick, since slots are a millisecond long, and the target, written before its window as `simulate` does.
 fn write_events(folder: &Path, profile: &Profile, frames: &Table) {
     let word = profile.control.as_ref().expect("a controller").target;
     let mut events = String::from("sample,name,address,code\n0,enable,,1\n");
-    let samples = profile.slot.samples() as usize;
+    let [samples, blanking] =
+        [profile.slot.samples(), profile.slot.blanking()].map(|count| count as usize);
     let rows = frames.numbers("pad").into_iter().zip(frames.numbers("target_n"));
     for (slot, (pad, target_n)) in rows.enumerate() {
         let code = word.code(target_n).unwrap_or(word.code_saturating(target_n));
-        let sample = (slot + 1) * samples - 1;
+        let sample = slot * samples + blanking;
         events += &format!("{sample},tick,,1\n{sample},target_word,{pad},{code}\n");
     }
     fs::write(folder.join("events.csv"), events).expect("written");
+}
+
+/// Zeros in the samples of each slot's blanking, which the waves of a run have there: no result depends on them.
+fn silence_blanking(folder: &Path, profile: &Profile) {
+    let path = folder.join("samples.csv");
+    let text = fs::read_to_string(&path).expect("samples");
+    let is_code = |line: &str| line.starts_with(|c: char| c == '-' || c.is_ascii_digit());
+    let head = text.lines().take_while(|line| !is_code(line)).map(str::to_owned);
+    let silence = vec!["0"; profile.channels()].join(",");
+    let rows = text.lines().filter(|line| is_code(line)).enumerate().map(|(row, line)| {
+        let blanked = row as u64 % profile.slot.samples() < profile.slot.blanking();
+        if blanked { silence.clone() } else { line.to_owned() }
+    });
+    fs::write(path, head.chain(rows).collect::<Vec<_>>().join("\n") + "\n").expect("written");
 }
 
 /// Runs the bench of `rtl/verilog` in the folder; the drive words that it got.
@@ -55,10 +71,10 @@ fn run_bench(folder: &Path, top: &str) -> Table {
     let modules = printed.map(|file| file.path());
     let modules = modules.filter(|path| path.extension().is_some_and(|of| of == "v"));
     let mut compile = Command::new("iverilog");
-    compile.args(["-g2005", "-I", "verilog", "-s", "loop_bench", "-o", "bench"]);
+    compile.args(["-g2005", "-I", "verilog", "-s", "bench", "-o", "bench"]);
     compile.arg(format!("-DLOOP={top}")).args(modules).arg(bench);
     tools::run(&mut compile, folder);
-    let log = tools::run(Command::new("vvp").args(["-n", "bench"]), folder);
+    let log = tools::run(Command::new("vvp").args(["-n", "bench", "+waves"]), folder);
     assert!(log.contains("PASSED"), "{log}");
     Table::read(&folder.join("got.csv"))
 }
@@ -71,12 +87,13 @@ fn run_bench(folder: &Path, top: &str) -> Table {
 fn the_printed_loop_gives_the_drive_words_of_fig9() {
     let folder = tempfile::tempdir().expect("a folder");
     // A slot is a millisecond; the whole case takes Icarus minutes.
-    simulate(folder.path(), if std::env::var("FIG9").is_ok() { "0.5" } else { "0.024" });
+    simulate(folder.path(), if std::env::var("FIG9").is_ok() { "0.5" } else { "0.016" });
     let top = print(folder.path());
     let text = fs::read_to_string(folder.path().join("run/profile.toml")).expect("a profile");
     let profile = Profile::parse(&text).expect("a profile");
     let frames = Table::read(&folder.path().join("run/frames.csv"));
     write_events(folder.path(), &profile, &frames);
+    silence_blanking(folder.path(), &profile);
     let got = run_bench(folder.path(), &top);
     let format = profile.control.as_ref().expect("a controller").drive;
     let word = |volts: &f64| format.code(volts / FULL_SCALE_V).expect("a drive word") as f64;
@@ -89,6 +106,42 @@ fn the_printed_loop_gives_the_drive_words_of_fig9() {
     };
     let limited: Vec<bool> = frames.numbers("drive_limited").iter().map(|&bit| bit > 0.0).collect();
     assert_eq!(either("low", "high"), limited);
+    the_dump_has_the_signals_of_the_waves(folder.path());
+}
+
+/// Every signal of the run's waves is in the dump of the printed loop under its path and takes the same values one after the
+/// other.
+fn the_dump_has_the_signals_of_the_waves(folder: &Path) {
+    let [mut run, mut dump] = ["run/waves.vcd", "waves.vcd"]
+        .map(|name| wellen::simple::read(folder.join(name)).expect("waves that others read"));
+    let hierarchy = run.hierarchy();
+    let paths: Vec<String> =
+        hierarchy.all_vars().map(|var| hierarchy[var].full_name(hierarchy)).collect();
+    let (mut moving, mut others) = (0, Vec::new());
+    for path in paths.iter().filter(|path| !path.starts_with("truth.")) {
+        let [of_run, of_dump] = [&mut run, &mut dump].map(|waves| values(waves, path));
+        moving += usize::from(of_run.len() > 1);
+        // What a register holds before its first operand is the simulator's: some are not reset.
+        let of_run = &of_run[usize::from(of_run.len() > 1)..];
+        let follows = of_dump.windows(of_run.len()).any(|values| values == of_run);
+        if !follows {
+            others.push(path);
+        }
+    }
+    assert_eq!(others, [""; 0], "other values");
+    assert!(paths.len() > 200 && moving > 100, "{}, {moving}", paths.len());
+}
+
+/// The values of a signal one after the other.
+fn values(waves: &mut Waveform, path: &str) -> Vec<String> {
+    let names: Vec<_> = path.split('.').collect();
+    let (name, scopes) = names.split_last().expect("a path");
+    let hierarchy = waves.hierarchy();
+    let var = hierarchy.lookup_var(scopes, name).unwrap_or_else(|| panic!("no signal {path}"));
+    let signal = hierarchy[var].signal_ref();
+    waves.load_signals(&[signal]);
+    let signal = waves.get_signal(signal).expect("loaded");
+    signal.iter_changes().map(|(_, value)| value.to_bit_string().expect("bits")).collect()
 }
 
 #[test]

@@ -8,10 +8,13 @@ use std::path::Path;
 use hapticore_contract::control::{Control, Law};
 use hapticore_contract::frame::Field;
 use hapticore_contract::profile::{Profile, Wall};
-use hapticore_hdl::probe::{Variable, variables};
+use hapticore_hdl::probe::Signals;
+use hapticore_hdl::verilog::dump;
 use hapticore_model::blocks::core::Core;
 use hapticore_model::blocks::force_loop::ForceLoop;
+use hapticore_waveforms::declarations::{Declarations, Signal};
 use hapticore_waveforms::pattern::fits;
+use hapticore_waveforms::timebase::Timebase;
 use hapticore_waveforms::view::View;
 use wellen::simple::Waveform;
 use wellen::{SignalRef, SignalValueRef};
@@ -49,14 +52,21 @@ fn at(values: &[(u32, i64)], time: u32) -> i64 {
     values[values.partition_point(|(when, _)| *when <= time) - 1].1
 }
 
+/// The times of clocks: half a clock later nothing but the clock changes.
+fn clocks(waves: &mut Waveform, core: &str) -> Vec<u32> {
+    let root: Vec<_> = core.split('.').take(2).collect();
+    let clock = values(waves, &format!("{}.clock", root.join(".")), false);
+    clock.iter().filter(|(_, code)| *code == 1).map(|(time, _)| *time).collect()
+}
+
 /// The frames in the waves of a core: codes of all fields.
 fn frames(waves: &mut Waveform, core: &str) -> Vec<Vec<i64>> {
+    let clocks = clocks(waves, core);
     let [valid, index] = ["valid", "index"]
-        .map(|name| values(waves, &format!("{core}.estimator.frames.{name}"), false));
-    let word = values(waves, &format!("{core}.estimator.frames.word"), true);
+        .map(|name| values(waves, &format!("{core}.u_estimator.u_frames.{name}"), false));
+    let word = values(waves, &format!("{core}.u_estimator.u_frames.word"), true);
     let mut frames = Vec::new();
-    let end = waves.time_table().len() as u32;
-    for time in (0..end).filter(|time| at(&valid, *time) == 1) {
+    for time in clocks.into_iter().filter(|time| at(&valid, *time) == 1) {
         if at(&index, time) == 0 {
             frames.push(Vec::new());
         }
@@ -72,11 +82,11 @@ fn check(kind: &str, args: &[&str], first: usize) {
     let out = folder.path().join("o");
     let mut waves =
         wellen::simple::read(out.join(format!("waves.{kind}"))).expect("waves that others read");
-    let frames = frames(&mut waves, "core");
+    let frames = frames(&mut waves, "bench.core");
     assert!(frames.len() >= 2, "two frames at least");
     compare(&frames, &Table::read(&out.join("frames.csv")), first);
-    compare_truth(&mut waves, "core", &Table::read(&out.join("frames.csv")), first);
-    let forces = values(&mut waves, "core.estimator.force_estimator.haptic_force", false);
+    compare_truth(&mut waves, "bench.core", &Table::read(&out.join("frames.csv")), first);
+    let forces = values(&mut waves, "bench.core.u_estimator.u_force_estimator.haptic_force", false);
     let force = Profile::bundled("standard").unwrap().formats.force;
     let last = Table::read(&out.join("frames.csv")).numbers("force_n")[first + frames.len() - 1];
     assert!(forces.iter().any(|(_, code)| force.real(*code) == last), "the register held {last} N");
@@ -104,11 +114,10 @@ fn compare(frames: &[Vec<i64>], table: &Table, first: usize) {
 
 /// The truth beside a frame is that of the frame's slot.
 fn compare_truth(waves: &mut Waveform, core: &str, table: &Table, first: usize) {
-    let valid = values(waves, &format!("{core}.estimator.frames.valid"), false);
-    let index = values(waves, &format!("{core}.estimator.frames.index"), false);
-    let end = waves.time_table().len() as u32;
-    let starts: Vec<u32> =
-        (0..end).filter(|time| at(&valid, *time) == 1 && at(&index, *time) == 0).collect();
+    let valid = values(waves, &format!("{core}.u_estimator.u_frames.valid"), false);
+    let index = values(waves, &format!("{core}.u_estimator.u_frames.index"), false);
+    let first_word = |time: &u32| at(&valid, *time) == 1 && at(&index, *time) == 0;
+    let starts: Vec<u32> = clocks(waves, core).into_iter().filter(first_word).collect();
     for (name, column) in [("x_mm", "true_x_mm"), ("capacitance_pf", "true_capacitance_pf")] {
         let signal = signal(waves, &format!("truth.{name}"));
         waves.load_signals(&[signal]);
@@ -155,9 +164,9 @@ fn a_window_that_makes_a_large_file_is_told() {
 
 fn check_save_file(out: &Path) {
     let expected = [
-        "core.estimator.force_estimator.haptic_force[19:0]",
+        "bench.core.u_estimator.u_force_estimator.haptic_force[19:0]",
         "truth.force_n",
-        "waves.core.estimator.position.surface.txt",
+        "waves.bench.core.u_estimator.u_position.surface.txt",
     ];
     check_shown(out, &expected);
 }
@@ -184,15 +193,18 @@ fn check_loop(args: &[&str], first: usize) {
     finish(folder.path(), &[&common, &case[..], &set.concat(), args].concat());
     let out = folder.path().join("o");
     let mut waves = wellen::simple::read(out.join("waves.vcd")).expect("waves that others read");
-    let frames = frames(&mut waves, "force_loop.core");
+    let frames = frames(&mut waves, "bench.force_loop.u_core");
     assert!(frames.len() >= 2, "two frames at least");
     let table = Table::read(&out.join("frames.csv"));
     compare(&frames, &table, first);
-    compare_truth(&mut waves, "force_loop.core", &table, first);
+    compare_truth(&mut waves, "bench.force_loop.u_core", &table, first);
     compare_drives(&mut waves, &table, first);
     check_truth_times(&mut waves);
-    let task = "waves.force_loop.drives.controller.task.txt";
-    check_shown(&out, &["force_loop.drives.controller.drive[", "truth.haptic_v_rms", task]);
+    let task = "waves.bench.force_loop.u_drives.u_controller.task_q.txt";
+    check_shown(
+        &out,
+        &["bench.force_loop.u_drives.u_controller.drive_q[", "truth.haptic_v_rms", task],
+    );
     let names = fs::read_to_string(out.join(task)).unwrap();
     assert!(names.contains("inverse_root"), "{names}");
 }
@@ -213,9 +225,9 @@ fn check_truth_times(waves: &mut Waveform) {
 /// Drive words and targets at each `done`, in volts and newtons.
 fn compare_drives(waves: &mut Waveform, table: &Table, first: usize) {
     let control = Control::of(&Profile::bundled("standard").unwrap(), Law::Inverse);
-    let done = values(waves, "force_loop.drives.controller.done", false);
-    let drive = values(waves, "force_loop.drives.controller.drive", false);
-    let target = values(waves, "force_loop.drives.target", false);
+    let done = values(waves, "bench.force_loop.u_drives.u_controller.done", false);
+    let drive = values(waves, "bench.force_loop.u_drives.u_controller.drive_q", false);
+    let target = values(waves, "bench.force_loop.u_drives.target", false);
     let (volts, targets) = (table.numbers("drive_v_rms"), table.numbers("target_n"));
     let given: Vec<u32> = done.iter().filter(|(_, code)| *code == 1).map(|(at, _)| *at).collect();
     assert!(given.len() >= 2 && volts[first] != volts[first + 1], "{volts:?}");
@@ -253,22 +265,28 @@ fn a_later_window_of_a_force_loop_holds_what_led_to_it() {
 fn every_pattern_of_a_bundled_view_finds_signals() {
     let standard = Profile::bundled("standard").unwrap();
     let control = Some(Control::of(&standard, Law::Inverse));
-    let (wall, pads) = (Some(Wall::A), Wall::A.parts);
-    let controlled = Profile { control, wall, pads, ..standard.clone() };
-    check_patterns("slot", &variables(&Core::new(&standard), "core"));
-    let force_loop = ForceLoop::try_new(&controlled).expect("a controller");
-    check_patterns("force_loop", &variables(&force_loop, "force_loop"));
+    let controlled = Profile { control, ..standard.clone() };
+    let walled = Profile { wall: Some(Wall::A), pads: Wall::A.parts, ..controlled.clone() };
+    check_patterns("slot", &paths(dump::signals(&Core::new(&standard), &["bench", "core"])));
+    let of_loop = |profile: &Profile| {
+        let force_loop = ForceLoop::try_new(profile).expect("a controller");
+        paths(dump::signals(&force_loop, &["bench", "force_loop"]))
+    };
+    // Of a split pad others ask for a drive word.
+    check_patterns("force_loop", &[of_loop(&controlled), of_loop(&walled)].concat());
 }
 
-fn check_patterns(view: &str, variables: &[Variable]) {
-    let paths: Vec<_> =
-        variables.iter().map(|v| format!("{}.{}", v.scope.join("."), v.name)).collect();
-    for group in View::bundled(view).unwrap().groups {
-        for entry in group.signals {
-            let pattern = entry.show.get_ref();
-            let found =
-                pattern.starts_with("truth") || paths.iter().any(|path| fits(pattern, path));
-            assert!(found, "no signal fits {pattern}");
-        }
-    }
+fn paths(signals: Signals) -> Vec<String> {
+    let timebase = Timebase::of_clock(25_000_000).unwrap();
+    let declarations = Declarations::new(signals, &[], true, timebase).unwrap();
+    declarations.signals().iter().map(Signal::path).collect()
+}
+
+fn check_patterns(view: &str, paths: &[String]) {
+    let groups = View::bundled(view).unwrap().groups;
+    let patterns = groups.iter().flat_map(|group| &group.signals).map(|entry| entry.show.get_ref());
+    let of_core = patterns.filter(|pattern| !pattern.starts_with("truth"));
+    let unknown: Vec<_> =
+        of_core.filter(|pattern| !paths.iter().any(|path| fits(pattern, path))).collect();
+    assert_eq!(unknown, [""; 0], "{view}");
 }

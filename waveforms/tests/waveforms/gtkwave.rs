@@ -39,19 +39,21 @@ fn shown(dump: &Path, save: &Path, tick: u64) -> Vec<(String, String)> {
 /// What GTKWave should show, name and value, for a variable of the made-up core.
 fn of_variable(index: usize, code: i64) -> (String, String) {
     let (path, format, states) = VARIABLES[index];
-    let name = path.rsplit('.').next().unwrap();
-    let range = if format.width > 1 { format!("[{}:0]", format.width - 1) } else { String::new() };
-    match name {
-        "state" => (name.to_string() + &range, states[code as usize].into()),
-        "gain" => ("gain (2^-38)".into(), code.to_string()),
-        "coarse" => ("coarse (2^3)".into(), code.to_string()),
-        _ => (name.to_string() + &range, format.real(code).to_string()),
+    let name = path.replace('.', "/");
+    match path.rsplit('.').next().unwrap() {
+        "state" => (name, states[code as usize].into()),
+        "gain" => (name + " (2^-38)", code.to_string()),
+        "coarse" => (name + " (2^3)", code.to_string()),
+        _ => (name, format.real(code).to_string()),
     }
 }
 
 fn expected() -> Vec<(String, String)> {
     let codes = Fake { clock: CLOCK }.codes().into_iter().enumerate();
-    let truth = [("x (mm)".into(), true_x(CLOCK).to_string()), ("error".into(), "-1.5e-12".into())];
+    let truth = [
+        ("truth/x (mm)".into(), true_x(CLOCK).to_string()),
+        ("truth/error".into(), "-1.5e-12".into()),
+    ];
     codes.map(|(index, code)| of_variable(index, code)).chain(truth).collect()
 }
 
@@ -67,7 +69,7 @@ fn check(kind: Kind) {
     let (dump, trace) = trace(folder.path(), kind, &settings(), 300);
     // Saved for the VCD: the FST opens under it all the same.
     let path = folder.path().join("waves.gtkw");
-    save(&View::everything(), &trace, "waves.vcd", &path).unwrap();
+    save(&View::everything(), &trace, "waves.vcd", &trace.ticks, &path).unwrap();
     let (shown, expected) = (shown(&dump, &path, CLOCK * 40), expected());
     assert_eq!(shown.len(), expected.len(), "{kind:?}: {shown:?}");
     for (shown, expected) in shown.iter().zip(&expected) {

@@ -130,7 +130,7 @@ fn the_clock_wire_rises_with_the_registers() {
         let folder = folder();
         let settings = Settings { clock_wire: true, ..settings() };
         let read = Read::new(&trace(folder.path(), kind, &settings, 4).0);
-        let wire: String = (0..8).map(|half| read.code("core.clk", 1, half * 20)).collect();
+        let wire: String = (0..8).map(|half| read.code("core.clock", 1, half * 20)).collect();
         assert_eq!(wire, "10101010");
         read.check_codes(0..4, 40);
     });

@@ -15,7 +15,7 @@ fn traced() -> Trace {
 
 fn save_file(view: &str) -> Result<SaveFile, String> {
     let view = View::parse("mine.toml", view).map_err(|error| error.to_string())?;
-    SaveFile::new(&view, &traced(), "waves.vcd").map_err(|error| error.to_string())
+    SaveFile::new(&view, &traced(), "waves.vcd", &(0..100)).map_err(|error| error.to_string())
 }
 
 /// The part of a save file after its head.
@@ -39,7 +39,7 @@ fn every_trace_is_in_the_file_with_its_width() {
     let hierarchy = waveform.hierarchy();
     let bundled = View::names().map(|name| View::bundled(name).unwrap());
     for view in bundled.chain([View::everything()]) {
-        let file = SaveFile::new(&view, &trace, "waves.vcd").unwrap();
+        let file = SaveFile::new(&view, &trace, "waves.vcd", &trace.ticks).unwrap();
         let shown = traces(&file.text);
         assert_eq!(shown.len(), hierarchy.all_vars().count(), "every view shows everything");
         for shown in shown {
@@ -76,30 +76,30 @@ fn numbers_states_curves_and_truth() {
 @2024
 ^1 /hapticore/waves.core.multiplexer.state.txt
 [color] 6
-core.multiplexer.state[1:0]
++{core/multiplexer/state} core.multiplexer.state[1:0]
 @24
-core.demodulator.valid
++{core/demodulator/valid} core.demodulator.valid
 @40000424
 [fpshift_count] 8
 +{across} core.position.x[15:0]
 @40000024
 [fpshift_count] 12
-core.capacitance.c[19:0]
++{core/capacitance/c} core.capacitance.c[19:0]
 @24
-+{core.capacitance.gain (2^-38)} core.capacitance.gain[17:0]
++{core/capacitance/gain (2^-38)} core.capacitance.gain[17:0]
 @424
-+{core.force.coarse (2^3)} core.force.coarse[7:0]
++{core/force/coarse (2^3)} core.force.coarse[7:0]
 @40008424
 [fpshift_count] 17
-core.oscillator.sin[17:0]
++{core/oscillator/sin} core.oscillator.sin[17:0]
 @20000
 -
 @20000
 -
 @22
-core.oscillator.sin[17:0]
++{core/oscillator/sin} core.oscillator.sin[17:0]
 @50020
-+{truth.x (mm)} truth.x
++{truth/x (mm)} truth.x
 @20000
 -
 @1000200
@@ -159,7 +159,7 @@ fn an_optional_group_goes_without_what_is_not_there() {
 fn states_are_translated_from_a_file_beside() {
     let folder = folder();
     let path = folder.path().join("waves.gtkw");
-    gtkwave::save(&View::everything(), &traced(), "waves.fst", &path).unwrap();
+    gtkwave::save(&View::everything(), &traced(), "waves.fst", &(0..100), &path).unwrap();
     let translation =
         fs::read_to_string(folder.path().join("waves.core.multiplexer.state.txt")).unwrap();
     assert_eq!(

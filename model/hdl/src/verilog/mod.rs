@@ -20,6 +20,7 @@
 
 mod clock;
 mod describe;
+pub mod dump;
 mod expression;
 mod fit;
 pub(crate) mod live;
@@ -31,6 +32,11 @@ mod text;
 use crate::block::Block;
 use crate::format::Format;
 use crate::interpretations::netlist::{Module, Netlist};
+
+/// The name of an instance in its module's text.
+fn instance(name: &str) -> String {
+    format!("u_{name}")
+}
 
 /// A file of a design: one module.
 #[derive(Debug, Clone, PartialEq, Eq)]

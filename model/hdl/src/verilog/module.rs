@@ -2,6 +2,7 @@
 //! A module as text: head, ports, registers, wires, memories, instances, clock.
 
 use super::clock::Next;
+use super::live::Live;
 use super::names::{Names, ports, read_register};
 use super::scope::{Scope, range};
 use super::text::{BREAK, bits, literal};
@@ -18,9 +19,7 @@ pub fn print(
     name: &str,
     heading: &Heading,
 ) -> String {
-    let ports = ports(module);
-    let mut names = Names::default();
-    ports.iter().for_each(|port| names.reserve(&port.name));
+    let (ports, names) = reserved(module);
     let mut printer = Printer {
         scope: Scope::new(module, names),
         netlist,
@@ -55,6 +54,40 @@ pub fn print(
     text.replace(BREAK, " ") + "\nendmodule\n\n`default_nettype wire\n"
 }
 
+/// The names of registers that something needs, and whether each is an output as it stands.
+type Registers = Vec<Option<(String, bool)>>;
+
+/// A register that is an output under its own name is the port; another whose name is taken gets `_q`.
+fn registers(module: &Module, live: &Live, ports: &[Port], names: &mut Names) -> Registers {
+    let outputs =
+        |name: &str| ports.iter().any(|p| p.direction == Direction::Output && p.name == name);
+    let named = |(index, register): (usize, &Named)| {
+        let node = |port: &&Named| module.wires[port.node.0 as usize].op == Op::Register(index);
+        let output = module.outputs.iter().find(|port| port.name == register.name).filter(node);
+        live.registers[index].then(|| match output {
+            Some(_) if outputs(register.name) => (register.name.to_owned(), true),
+            _ if names.has(register.name) => (names.unique(&format!("{}_q", register.name)), false),
+            _ => (names.unique(register.name), false),
+        })
+    };
+    module.registers.iter().enumerate().map(named).collect()
+}
+
+/// The names that the text of a module has for its registers; none for those that it leaves out.
+pub fn register_names(module: &Module) -> Vec<Option<String>> {
+    let (ports, mut names) = reserved(module);
+    let registers = registers(module, &Live::of(module), &ports, &mut names);
+    registers.into_iter().map(|register| register.map(|(name, _)| name)).collect()
+}
+
+/// The ports of a module, and its names with theirs taken.
+fn reserved(module: &Module) -> (Vec<Port>, Names) {
+    let ports = ports(module);
+    let mut names = Names::default();
+    ports.iter().for_each(|port| names.reserve(&port.name));
+    (ports, names)
+}
+
 /// A list over several lines.
 fn folded(items: &[String]) -> String {
     let mut text = String::new();
@@ -78,8 +111,7 @@ struct Printer<'a> {
     netlist: &'a Netlist,
     modules: &'a [String],
     ports: Vec<Port>,
-    /// The name of each register that is needed, and whether it is an output as it stands.
-    registers: Vec<Option<(String, bool)>>,
+    registers: Registers,
     /// The name of each memory: its own, but for a word of the language or a name that is taken.
     memories: Vec<String>,
 }
@@ -110,30 +142,9 @@ impl Printer<'_> {
         self.registers.iter().flatten().any(|(name, output)| *output && name == port)
     }
 
-    /// A register that is an output under its own name is the port; another whose name is taken
-    /// gets `_q`.
     fn name_registers(&mut self) {
-        let module = self.scope.module;
-        for (index, register) in module.registers.iter().enumerate() {
-            let named = self.scope.live.registers[index].then(|| {
-                let node =
-                    |port: &&Named| module.wires[port.node.0 as usize].op == Op::Register(index);
-                let output =
-                    module.outputs.iter().find(|port| port.name == register.name).filter(node);
-                let free = self
-                    .ports
-                    .iter()
-                    .any(|p| p.direction == Direction::Output && p.name == register.name);
-                match output {
-                    Some(_) if free => (register.name.to_owned(), true),
-                    _ if self.scope.names.has(register.name) => {
-                        (self.scope.names.unique(&format!("{}_q", register.name)), false)
-                    }
-                    _ => (self.scope.names.unique(register.name), false),
-                }
-            });
-            self.registers.push(named);
-        }
+        let Scope { module, live, names, .. } = &mut self.scope;
+        self.registers = registers(module, live, &self.ports, names);
     }
 
     /// Registers, memories, and what comes out of instances; each wire that stands for one of them
@@ -227,7 +238,8 @@ impl Printer<'_> {
         let mut text = String::new();
         for instance in &self.scope.module.instances {
             let module = &self.netlist.modules[instance.module];
-            let _ = write!(text, "\n    {} u_{} (\n", self.modules[instance.module], instance.name);
+            let (of, name) = (&self.modules[instance.module], super::instance(instance.name));
+            let _ = write!(text, "\n    {of} {name} (\n");
             let _ = write!(text, "        .clock(clock),\n        .reset(reset)");
             let ports = ports(module);
             for (port, &node) in ports.iter().zip(&instance.inputs) {
