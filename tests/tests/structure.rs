@@ -4,6 +4,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::process::Command;
 
 use toml::{Table, Value};
 
@@ -281,6 +282,24 @@ fn every_source_names_its_licence() {
                 path.display()
             );
         }
+    }
+}
+
+/// A patch that no longer applies judges nothing.
+#[test]
+fn each_fault_of_the_drive_can_be_put_back() {
+    let folder = root().join("mutants/mended");
+    let patches: Vec<_> = fs::read_dir(&folder)
+        .expect("patches")
+        .map(|entry| entry.expect("an entry").path())
+        .collect();
+    assert!(patches.len() >= 10, "{}", patches.len());
+    for patch in patches {
+        let mut git = Command::new("git");
+        let checked = git.current_dir(root()).args(["apply", "--check"]).arg(&patch).output();
+        let checked = checked.expect("git");
+        let errors = String::from_utf8_lossy(&checked.stderr);
+        assert!(checked.status.success(), "{}: {errors}", patch.display());
     }
 }
 

@@ -246,10 +246,11 @@ impl Board {
         state: &mut State<Self, V>,
         r: &Regs<V>,
         inputs: core::In<V>,
+        late: Signal<V>,
         registers: &registers::Out<V>,
     ) -> Measured<V> {
         let Some((block, within)) = self.core.as_ref().zip(state.submodules.core.as_mut()) else {
-            return self.drive(state, r, inputs, registers);
+            return self.drive(state, r, inputs, late, registers);
         };
         let core = block.call("core", within, inputs);
         let dac = DacPort::map(DacPort::of(Format::NONE), zero);
@@ -273,6 +274,7 @@ impl Board {
         state: &mut State<Self, V>,
         r: &Regs<V>,
         inputs: core::In<V>,
+        late: Signal<V>,
         registers: &registers::Out<V>,
     ) -> Measured<V> {
         let within = &mut state.submodules;
@@ -315,7 +317,8 @@ impl Board {
         let driven = driven(r.driven, &of_loop, dac.dac_live);
         let dac_polarity = dac.dac_polarity.resize(self.dac().dac_polarity, Wrap);
         let dac = DacPort { dac_polarity, ..dac };
-        let lost = core.frames.done & core.frames.lost;
+        // Codes of an ADC that was late are of no known time, or of no ADC.
+        let lost = (core.frames.done & core.frames.lost) | (late & registers.enable);
         let fewer = r.open.is(0).select(r.open, previous(r.open));
         let counted = core.frames.done.select(fewer, r.open);
         let open = lost.select(int(self.count()), counted);
@@ -389,7 +392,7 @@ impl Block for Board {
             self.codes.data(&mut state.submodules.codes),
         );
         let Measured { core, driven, dac, stale, open } =
-            self.measure(state, &r, inputs, &registers);
+            self.measure(state, &r, inputs, adc.late, &registers);
         let write = Write { enable: adc.store, address: adc.address, data: adc.code };
         self.codes.access(&mut state.submodules.codes, adc.bank.concat(core.channel), write);
         let inputs = sigma_delta::Inputs { carrier: core.carrier };

@@ -7,6 +7,7 @@
 //! them: `SAFETY_SEQUENCES=2000..4000`.
 
 use super::rig::{AT_ONCE, FULL_SCALE_V, PADS, Pad, Rig, open_drive, tuning};
+use crate::pins::Health;
 use crate::random::Random;
 use hapticore_contract::control::{Law, Tuning};
 use hapticore_host::{Command, drive, encode};
@@ -33,7 +34,7 @@ struct Told {
 fn step(rig: &mut Rig, random: &mut Random, told: &mut Told) {
     let slot = rig.profile.slot_clocks();
     let pad = random.below(PADS as u64) as usize;
-    match random.below(13) {
+    match random.below(14) {
         0 => rig.send(&[Command::ENABLE]),
         1 => {
             rig.send(&[Command::DISABLE]);
@@ -72,10 +73,12 @@ fn step(rig: &mut Rig, random: &mut Random, told: &mut Told) {
         7 => rig.pads[pad] = Pad { share: 0.01 * random.between(0.1, 20.0) },
         8 => rig.pads[pad] = Pad { share: random.between(0.6, 1.6) },
         9 => rig.adc.broken = Some((random.below(8) as usize, random.below(2) as i64)),
-        10 => rig.adc.broken = None,
-        11 => rig.send(&[drive::clear_faults()]),
+        10 => rig.adc.health = [Health::Absent, Health::Slow][random.below(2) as usize],
+        11 => (rig.adc.broken, rig.adc.health) = (None, Health::Well),
+        12 => rig.send(&[drive::clear_faults()]),
         _ => {
             rig.send(&[drive::rest()]);
+            rig.until_zero(rig.frame_clocks() + AT_ONCE);
         }
     }
     rig.run(random.below(3 * slot));
@@ -92,7 +95,7 @@ fn any_tuning(rig: &Rig, random: &mut Random) -> Tuning {
 
 /// A lawful target at the end of a sequence: the drive reaches it in time.
 fn reach(rig: &mut Rig, random: &mut Random) {
-    rig.adc.broken = None;
+    (rig.adc.broken, rig.adc.health) = (None, Health::Well);
     rig.pads = [Pad { share: 1.0 }; PADS];
     rig.send(&[Command::DISABLE]);
     rig.until_zero(AT_ONCE);

@@ -2,6 +2,7 @@
 //! The rows of the drive safety table, one by one: each measures its largest voltage and its times, which the document has.
 
 use super::rig::{AT_ONCE, Pad, Rig, profile, tuning};
+use crate::pins::Health;
 use hapticore_contract::control::{Control, Law, Tuning};
 use hapticore_host::{Command, drive, encode};
 
@@ -74,6 +75,18 @@ fn frames(rig: &mut Rig, count: u64) {
         rig.targets(TARGET_N);
         rig.frames(1);
     }
+}
+
+/// Clocks until something holds, in thousands, while the host is alive.
+fn until(rig: &mut Rig, most: u64, holds: impl Fn(&Rig) -> bool) -> u64 {
+    let mut clocks = 0;
+    while !holds(rig) {
+        assert!(clocks <= most, "{:?} after {clocks} clocks", rig.watch.now);
+        rig.targets(TARGET_N);
+        rig.run(1_000);
+        clocks += 1_000;
+    }
+    clocks
 }
 
 #[test]
@@ -207,6 +220,21 @@ fn a_host_that_falls_silent_leaves_no_voltage() {
 }
 
 #[test]
+fn a_drive_that_shall_rest_is_at_zero_within_a_frame() {
+    let mut row = Row::of("`drive::rest`");
+    for law in LAWS {
+        let mut rig = driving(law);
+        rig.mark();
+        rig.send(&[drive::rest()]);
+        let clocks = rig.until_zero(rig.frame_clocks() + AT_ONCE);
+        frames(&mut rig, 2);
+        assert!(rig.is_zero() && !rig.driven().faults.any(), "{law:?}: it is no fault");
+        row.add(&rig, clocks);
+    }
+    row.is_documented();
+}
+
+#[test]
 fn a_force_beyond_the_cap_takes_the_drive_away_within_a_frame() {
     let mut row = Row::of("force cap");
     for law in LAWS {
@@ -237,14 +265,8 @@ fn a_broken_line_of_the_adc_takes_the_drive_away() {
             let mut rig = running.clone();
             rig.adc.broken = Some((line, line as i64 % 2));
             rig.mark();
-            let mut clocks = 0;
-            while !rig.is_zero() {
-                assert!(clocks <= (invalid + 2) * rig.frame_clocks() + AT_ONCE, "line {line}");
-                rig.targets(TARGET_N);
-                rig.run(1_000);
-                clocks += 1_000;
-            }
-            longest = longest.max(clocks);
+            let most = (invalid + 2) * rig.frame_clocks() + AT_ONCE;
+            longest = longest.max(until(&mut rig, most, Rig::is_zero));
             frames(&mut rig, 2);
             let said = rig.packets.last().is_some_and(|packet| packet.frame.flags.lost);
             let fault = rig.driven().faults.sensor;
@@ -252,6 +274,27 @@ fn a_broken_line_of_the_adc_takes_the_drive_away() {
             assert!(!rig.is_live(), "{law:?}, line {line}");
             row.add(&rig, longest);
         }
+    }
+    row.is_documented();
+}
+
+#[test]
+fn an_adc_that_loses_its_supply_takes_the_drive_away() {
+    let mut row = Row::of("ADC absent");
+    for law in LAWS {
+        let mut rig = driving(law);
+        rig.adc.health = Health::Absent;
+        rig.mark();
+        let most = 2 * rig.frame_clocks() + AT_ONCE;
+        let clocks = until(&mut rig, most, Rig::is_zero);
+        frames(&mut rig, 4);
+        assert!(rig.is_zero() && !rig.is_live(), "{law:?}: it stays");
+        let said = rig.packets.last().is_some_and(|packet| packet.status.late);
+        assert!(said, "{law:?}: and it is said");
+        row.add(&rig, clocks);
+        rig.adc.health = Health::Well;
+        frames(&mut rig, 20);
+        assert!(rig.is_live() && !rig.is_zero(), "{law:?}: until it is back");
     }
     row.is_documented();
 }
@@ -277,13 +320,8 @@ fn a_pad_that_is_lifted_is_not_driven_and_begins_from_zero_when_it_is_put_back()
         let mut rig = driving(law);
         rig.pads[1] = Pad { share: 0.004 };
         rig.mark();
-        let mut clocks = 0;
-        while rig.watch.now[1] != 0.0 {
-            assert!(clocks <= 3 * rig.frame_clocks(), "{law:?}: {:?}", rig.watch.now);
-            rig.targets(TARGET_N);
-            rig.run(1_000);
-            clocks += 1_000;
-        }
+        let most = 3 * rig.frame_clocks();
+        let clocks = until(&mut rig, most, |rig| rig.watch.now[1] == 0.0);
         frames(&mut rig, 6);
         assert_eq!(rig.watch.now[1], 0.0, "{law:?}: a free pad");
         assert!(rig.watch.now[0] > 0.1 && rig.watch.now[2] > 0.1, "{law:?}: the others go on");
