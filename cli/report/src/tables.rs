@@ -16,7 +16,7 @@ pub fn criteria(criteria: &[Criterion]) -> String {
     verdict(criteria)
         + &table(
             "Criteria",
-            &["criterion", "", "#measured", "#limit (at most)", "for comparison"],
+            &["criterion", "result", "#measured", "#limit (at most)", "for comparison"],
             &rows,
         )
 }
