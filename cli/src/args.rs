@@ -422,6 +422,7 @@ const REFERENCE: &str = "Examples:
   hapticore reference criteria              # measures; columns: quantities and columns
   hapticore reference profile               # also calibration, of which [calibration] is a scene's table; live messages
   hapticore reference --schema > scene.schema.json
+  hapticore reference --man ~/.local/share/man/man1 && man hapticore-simulate
 
 An editor with a TOML language server takes the schema by a first line \"#:schema ./scene.schema.json\" of the scene.
 
@@ -442,6 +443,9 @@ pub struct ReferenceArgs {
     /// Print a JSON Schema, for editors: of scenes, or with profile, calibration, messages of those
     #[arg(long)]
     pub schema: bool,
+    /// Write the manual pages of all commands into a folder, such as ~/.local/share/man/man1
+    #[arg(long, value_name = "FOLDER", conflicts_with_all = ["key", "json", "markdown", "schema"])]
+    pub man: Option<PathBuf>,
 }
 
 const NEW: &str = "Examples:

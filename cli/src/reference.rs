@@ -2,9 +2,12 @@
 //! `hapticore reference`: every table and key of scenes, profiles and calibrations, quantities, measures and messages, as they
 //! are declared.
 //!
+//! `--man` writes the manual pages of the command itself.
+//!
 //! The same parts are printed as text, as JSON and as Markdown; `docs/guide/reference/` holds the last.
 
 mod declared;
+mod manual;
 mod schema;
 
 use std::fmt::Write as _;
@@ -72,7 +75,10 @@ struct Part {
 /// No such table or key.
 pub fn run(args: &ReferenceArgs) -> Result<bool> {
     let topic = args.key.as_deref().unwrap_or("scene");
-    if args.schema {
+    if let Some(folder) = &args.man {
+        let names = manual::write(folder)?;
+        say!("{} manual pages in {}", names.len(), folder.display());
+    } else if args.schema {
         say!("{}", serde_json::to_string_pretty(&schema_of(topic)?)?);
     } else if args.markdown {
         console::print(format_args!("{}", markdown(topic)?));

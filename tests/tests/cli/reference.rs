@@ -198,7 +198,9 @@ fn a_new_file_runs_as_it_is_and_takes_no_place() {
     for kind in ["scene", "loop", "wall"] {
         let file = format!("{kind}.toml");
         expect(at, &["new", kind, &file], 0);
-        expect(at, &["simulate", &file, "--out", kind], 0);
+        let log = expect(at, &["simulate", &file, "--out", kind], 0).stderr;
+        let log = String::from_utf8_lossy(&log);
+        assert!(!log.contains("warning"), "{file}: {log}");
         assert!(at.join(kind).join("frames.csv").is_file());
     }
     expect(at, &["new", "profile", "words.toml"], 0);
@@ -260,4 +262,24 @@ fn a_shell_completes_scenes_profiles_keys_and_their_words() {
     let folder = tempfile::tempdir().unwrap();
     let script = crate::command(folder.path(), &[]).env("COMPLETE", "zsh").output().unwrap();
     assert!(String::from_utf8(script.stdout).unwrap().contains("compdef"));
+}
+
+#[test]
+fn each_subcommand_has_a_manual_page() {
+    let folder = tempfile::tempdir().unwrap();
+    expect(folder.path(), &["reference", "--man", "man/man1"], 0);
+    let page = |name: &str| {
+        let path = folder.path().join("man/man1").join(format!("{name}.1"));
+        fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+    };
+    let of_all = page("hapticore");
+    for command in ["simulate", "replay", "hdl", "host", "reference", "new"] {
+        assert!(of_all.contains(&format!("hapticore\\-{command}(1)")), "{command}");
+        let text = page(&format!("hapticore-{command}"));
+        assert!(text.contains(".TH") && text.contains("Exit status"), "{command}");
+    }
+    assert!(page("hapticore-simulate").contains("\\-\\-waves"));
+    assert!(page("hapticore-sweep-run").contains("hapticore\\-sweep\\-run"));
+    let no_folder = expect(folder.path(), &["reference", "--man", "man/man1/hapticore.1"], 2);
+    assert!(String::from_utf8_lossy(&no_folder.stderr).contains("hapticore.1"));
 }

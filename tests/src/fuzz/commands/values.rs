@@ -91,6 +91,7 @@ impl<'a> Values<'a> {
                 rng,
                 "wall gap.rung pad.0.load_g force_n columns criteria profile calibration messages stimulus [[pad]] pad.position_mm.circle wal .. pad.0.0 x",
             ),
+            ("reference", "man") => one_of(rng, "man man/man1 . empty.csv"),
             ("new", "file") => one_of(rng, "new.toml nowhere/new.toml folder.toml empty.csv ."),
             (_, "scene" | "show") => scene.to_string(),
             (_, "set") => self.setting(rng, scene),
