@@ -55,6 +55,7 @@ fn step<W: Wave>(
 ) -> Result<Option<Drive>> {
     let mut outcome = Ok(());
     let mut clocks = 0..;
+    let is_whole = tracer.is_active();
     core.set_target(made.slot.pad, made.target_n);
     if let Some(surface) = made.surface {
         core.set_surface(made.slot.pad, surface);
@@ -67,7 +68,7 @@ fn step<W: Wave>(
         if outcome.is_ok() {
             outcome = tracer.clock(core);
         }
-        if ends {
+        if ends && is_whole {
             tracer.mark_once(mark::WINDOW);
         }
         if core.has_drive() {

@@ -123,7 +123,7 @@ pub fn trace(
     Ok(())
 }
 
-/// Marks of a trace: the last sample of a slot's window, and what the core gives of that slot.
+/// Marks of a trace: the last sample of the first window that is traced as a whole, and what the core gives of that slot.
 mod mark {
     pub const WINDOW: &str = "window end";
     pub const DRIVE: &str = "drive word";
@@ -160,7 +160,7 @@ fn slots(case: &Case, window: Option<&Range<f64>>) -> Result<Slots> {
 }
 
 /// The clocks to trace: by default the first slots and as much of the next as it takes for their
-/// frames to be there; of a case whose pads have targets, from the slot before the first of them.
+/// frames to be there; of a case whose pads have targets, from the slot whose end has the first of them.
 fn clocks(case: &Case, window: Option<&Range<f64>>, clock_hz: f64) -> Result<Range<u64>> {
     let profile = &case.profile;
     if let Some(seconds) = window {
@@ -169,7 +169,7 @@ fn clocks(case: &Case, window: Option<&Range<f64>>, clock_hz: f64) -> Result<Ran
         );
     }
     let (first, slots) = match first_target(case)? {
-        Some(slot) => (slot.saturating_sub(1) / profile.pads * profile.pads, SLOTS_OF_LOOP),
+        Some(slot) => (slot / profile.pads * profile.pads, SLOTS_OF_LOOP),
         None => (0, SLOTS),
     };
     let blanking = profile.slot.blanking() * profile.clocks_per_sample;

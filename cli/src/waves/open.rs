@@ -39,11 +39,14 @@ pub fn trace<W: Wave>(case: &Case, slots: &Slots, wave: W, bar: &ProgressBar) ->
             if let Some(truth) = &finished {
                 truth::set(&mut tracer, truth);
             }
+            let is_whole = tracer.is_active();
             if let (Signals::Samples { codes, .. }, _) = maker.sample(slot as usize) {
                 step(&mut core, &mut tracer, &codes, profile.channels())?;
                 // What the next slot brings is the frame of this one.
                 core.take_frame();
-                tracer.mark_once(mark::WINDOW);
+                if is_whole {
+                    tracer.mark_once(mark::WINDOW);
+                }
             }
         }
     }

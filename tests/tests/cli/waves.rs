@@ -290,3 +290,29 @@ fn check_patterns(view: &str, paths: &[String]) {
         of_core.filter(|pattern| !paths.iter().any(|path| fits(pattern, path))).collect();
     assert_eq!(unknown, [""; 0], "{view}");
 }
+
+#[test]
+fn the_default_window_of_a_loop_has_its_first_target_and_marks_its_results() {
+    let folder = tempfile::tempdir().unwrap();
+    let case = "square 0.6 N, closed loop";
+    let args = ["simulate", "fig9", "--case", case, "--set", "duration_s=0.06", "--waves", "fst"];
+    finish(folder.path(), &[&args[..], &["--out", "o"]].concat());
+    let out = folder.path().join("o");
+    let mut waves = wellen::simple::read(out.join("waves.fst")).expect("waves that others read");
+    let target = values(&mut waves, "bench.force_loop.u_drives.target", false);
+    let moves = target.windows(2).any(|pair| pair[0].1 == 0 && pair[1].1 > 0);
+    assert!(moves, "the target of 0.6 N begins after 50 ms: {target:?}");
+    let view = fs::read_to_string(out.join("waves.results.gtkw")).unwrap();
+    let line = |start: &str| view.lines().find(|line| line.starts_with(start)).unwrap().to_owned();
+    let numbers = |line: &str| -> Vec<f64> {
+        line.split([' ', '*']).filter_map(|word| word.parse().ok()).collect()
+    };
+    let [start] = numbers(&line("[timestart]"))[..] else { panic!("a start: {view}") };
+    // Ticks of nanoseconds: the target comes with the end of a slot of 1 ms.
+    let marks = numbers(&line("*"))[2..].to_vec();
+    let names: Vec<_> =
+        view.lines().filter_map(|line| line.strip_prefix("[markername] ")).collect();
+    assert_eq!(names, ["Awindow end", "Bdrive word", "Cframe"]);
+    assert_eq!(marks[0], 50e6);
+    assert!(start < marks[0] && marks.is_sorted() && marks[2] < 50.5e6, "{start}, {marks:?}");
+}
