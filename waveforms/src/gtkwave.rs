@@ -3,8 +3,8 @@
 //!
 //! Codes are shown as the numbers they stand for, states by name, chosen signals as curves. The
 //! same save file opens the VCD and the FST of a run, from any working directory and wherever the
-//! folder is moved, and the dump of the printed Verilog in a bench of the same instances. Marks of
-//! the trace are markers A, B, …. Checked with GTKWave 3.3.118.
+//! folder is moved. It also opens the dump of the printed Verilog in a bench of the same instances.
+//! Marks of the trace are markers A, B, …. Checked with GTKWave 3.3.118.
 //!
 //! GTKWave leaves a fraction below 0.0001 out of a fixed-point number (0.00001 shows as 0, 2.00001
 //! as 2; curves too). A format whose largest number is about that small is therefore shown as its

@@ -160,7 +160,7 @@ fn slots(case: &Case, window: Option<&Range<f64>>) -> Result<Slots> {
 }
 
 /// The clocks to trace: by default the first slots and as much of the next as it takes for their
-/// frames to be there; of a case whose pads have targets, from the slot whose end has the first of them.
+/// frames to be there. A case whose pads have targets begins with the slot whose end has the first of them.
 fn clocks(case: &Case, window: Option<&Range<f64>>, clock_hz: f64) -> Result<Range<u64>> {
     let profile = &case.profile;
     if let Some(seconds) = window {
