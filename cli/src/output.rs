@@ -113,9 +113,10 @@ pub fn is_of_a_run(name: &str) -> bool {
 }
 
 fn is_of_waves(name: &str) -> bool {
-    let of_states = ["waves.core.", "waves.force_loop."];
+    // Names of states, with those of version 0.1.0.
+    let of_states = ["waves.bench.", "waves.core.", "waves.force_loop."];
     let texts = of_states.iter().any(|of| name.starts_with(of)) && name.ends_with(".txt");
-    texts || ["waves.vcd", "waves.fst", "waves.gtkw"].contains(&name)
+    texts || ["waves.vcd", "waves.fst", "waves.gtkw", "waves.results.gtkw"].contains(&name)
 }
 
 /// `frames.csv`, row by row.

@@ -66,7 +66,7 @@ fn live_refuses_what_it_cannot_serve() {
         (&["peg", "--listen", "0.0.0.0", "--token", "short"], "at least 16 letters"),
     ];
     for (args, expected) in cases {
-        let log = expect(folder.path(), &[&["live"], args].concat(), 2).stderr;
+        let log = expect(folder.path(), &[&["live", "--port", "0"], args].concat(), 2).stderr;
         let log = String::from_utf8_lossy(&log).into_owned();
         assert!(log.contains(expected), "{args:?}: {log}");
     }
