@@ -8,7 +8,7 @@ mod wiring;
 use std::fs;
 use std::hash::{BuildHasher, Hasher, RandomState};
 use std::io::{self, BufWriter};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use anyhow::{Context, Result, anyhow, bail, ensure};
 use hapticore_board::recording::{Csv, Mcap, Recorder};
@@ -122,10 +122,9 @@ fn page(watched: Watched, args: &HostArgs) -> Result<bool> {
     if args.open {
         live::open(&url);
     }
-    let (begun, seconds) = (Instant::now(), args.seconds.map(Duration::from_secs_f64));
-    server.run(&|| {
-        interrupt::check().is_err() || seconds.is_some_and(|seconds| begun.elapsed() > seconds)
-    })?;
+    let begun = Instant::now();
+    let is_over = |seconds: f64| begun.elapsed().as_secs_f64() > seconds;
+    server.run(&|| interrupt::check().is_err() || args.seconds.is_some_and(is_over))?;
     Ok(true)
 }
 

@@ -110,10 +110,11 @@ impl<'a> Watched<'a> {
         if interrupt::check().is_err() {
             return Some(self.measuring_since.is_some());
         }
-        let seconds = Duration::from_secs_f64(self.args.seconds?);
+        let seconds = self.args.seconds?;
+        let patience_s = PATIENCE.as_secs_f64().max(seconds);
         match self.measuring_since {
-            Some(since) => (since.elapsed() >= seconds).then_some(true),
-            None => (self.begun.elapsed() >= PATIENCE.max(seconds)).then_some(false),
+            Some(since) => (since.elapsed().as_secs_f64() >= seconds).then_some(true),
+            None => (self.begun.elapsed().as_secs_f64() >= patience_s).then_some(false),
         }
     }
 

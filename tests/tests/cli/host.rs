@@ -188,3 +188,16 @@ fn ports_and_scenes_are_listed() {
     let said = String::from_utf8_lossy(&output.stdout).into_owned();
     assert!(said.contains("virtual:SCENE") && said.contains("hockey"), "{said}");
 }
+
+#[test]
+fn a_time_beyond_all_clocks_lasts_until_ctrl_c() {
+    // A row behind the columns; the page's address.
+    for (way, lines) in [(&["--csv", "-"][..], 2), (&["--page", "--page-port", "0"], 1)] {
+        let mut child = start(&[&["host", "virtual", "--seconds", "1e300"], way].concat());
+        let said = BufReader::new(child.stdout.as_mut().unwrap()).lines().take(lines);
+        assert_eq!(said.flatten().count(), lines, "{way:?}");
+        let output = interrupt(child);
+        let log = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(output.status.code() != Some(101) && !log.contains("panic"), "{way:?}: {log}");
+    }
+}
