@@ -87,7 +87,7 @@ fn run_bench(folder: &Path, top: &str) -> Table {
 fn the_printed_loop_gives_the_drive_words_of_fig9() {
     let folder = tempfile::tempdir().expect("a folder");
     // A slot is a millisecond; the whole case takes Icarus minutes.
-    simulate(folder.path(), if std::env::var("FIG9").is_ok() { "0.5" } else { "0.016" });
+    simulate(folder.path(), if std::env::var("FIG9").is_ok() { "0.5" } else { "0.01" });
     let top = print(folder.path());
     let text = fs::read_to_string(folder.path().join("run/profile.toml")).expect("a profile");
     let profile = Profile::parse(&text).expect("a profile");
