@@ -153,7 +153,7 @@ impl Link {
                 Some(frames) => {
                     self.background.wait(TURN, |seen| seen.unread() >= frames);
                 }
-                None => std::thread::sleep(Duration::from_secs_f64(left_s.min(TURN.as_secs_f64()))),
+                None => std::thread::sleep(TURN.min(Duration::from_secs_f64(left_s))),
             }
             signals()?;
         }

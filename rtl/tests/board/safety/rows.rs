@@ -77,7 +77,7 @@ fn frames(rig: &mut Rig, count: u64) {
     }
 }
 
-/// Clocks until something holds, in thousands, while the host is alive.
+/// Clocks until something holds, in steps of a thousand, while the host is alive.
 fn until(rig: &mut Rig, most: u64, holds: impl Fn(&Rig) -> bool) -> u64 {
     let mut clocks = 0;
     while !holds(rig) {
