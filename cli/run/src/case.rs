@@ -443,23 +443,25 @@ impl Case {
         let (Some(plan), Some(control)) = (self.plan(), &self.profile.control) else {
             return Ok(None);
         };
-        for (pad, target_n) in plant.largest_targets_n().into_iter().enumerate() {
-            let most_n = control.target.real(control.target.max_code() as i64);
+        let most_n = control.target.real(control.target.max_code() as i64);
+        for (key, force_n) in self.asked_forces(plan, plant) {
             ensure!(
-                target_n <= most_n,
-                "pad.{pad}.target_n: expected at most {most_n:.3} N, what the controller's word holds, got {target_n}"
-            );
-        }
-        if let Some(arena) = &self.scene.cases[self.index].arena {
-            let most_n = control.target.real(control.target.max_code() as i64);
-            ensure!(
-                arena.force_n <= most_n,
-                "arena.force_n: expected at most {most_n:.3} N, what the controller's word holds, got {}",
-                arena.force_n
+                force_n <= most_n,
+                "{key}: expected at most {most_n:.3} N, what the controller's word holds, got {force_n}"
             );
         }
         let calibrated = plant.as_calibrated()?;
         control::tuning(self, plan, calibrated.as_ref().unwrap_or(plant)).map(Some)
+    }
+
+    /// The largest force that each key of the scene asks of the controller, N.
+    fn asked_forces(&self, plan: &ControlPlan, plant: &Plant) -> Vec<(String, f64)> {
+        let targets = plant.largest_targets_n().into_iter().enumerate();
+        let of_pads = targets.map(|(pad, target_n)| (format!("pad.{pad}.target_n"), target_n));
+        let of_wall = plan.wall.iter().map(|wall| ("wall.force_n".to_owned(), wall.force_n));
+        let arena = &self.scene.cases[self.index].arena;
+        let of_arena = arena.iter().map(|arena| ("arena.force_n".to_owned(), arena.force_n));
+        of_pads.chain(of_wall).chain(of_arena).collect()
     }
 
     /// The plant of the case's force loop, before its first slot: no pad is driven.

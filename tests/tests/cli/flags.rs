@@ -142,3 +142,16 @@ fn a_mean_over_windows_reads_a_slow_haptic_voltage() {
         assert_eq!(outcomes[1].2, outcomes[2].2, "fixed and clock, {windows} windows");
     }
 }
+
+#[test]
+fn a_wall_that_sticks_is_warned_of() {
+    let folder = tempfile::tempdir().unwrap();
+    finish(folder.path(), &["new", "wall", "wall.toml"]);
+    let warned = |rule: &str| {
+        let set = format!("wall.rule={rule}");
+        let args = ["simulate", "wall.toml", "--set", &set, "--waves", "none", "--out", rule];
+        let output = finish(folder.path(), &args);
+        String::from_utf8_lossy(&output.stderr).contains("sticks with")
+    };
+    assert!(warned("direct") && !warned("sequential"));
+}

@@ -58,6 +58,14 @@ const COMMANDS: &[Mistake] = &[
     ("live hocky", &["did you mean \"hockey\"?"]),
     ("host /dev/none", &["--calibration: expected the device's calibration"]),
     ("host virtual:nope", &["a file or a scene among", "\"nope\""]),
+    (
+        "simulate peg --set wall.force_n=5",
+        &["wall.force_n: expected at most 2.000 N, what the controller's word holds, got 5"],
+    ),
+    (
+        "simulate fig9 --set pad.0.target_n=5",
+        &["pad.0.target_n: expected at most 2.000 N, what the controller's word holds, got 5"],
+    ),
 ];
 
 /// Values of `--set` on `fig6`.

@@ -13,8 +13,8 @@ const OFF: f64 = 0.1;
 const OFF_N: f64 = 0.03;
 /// The reading of a core is off that of the host by more than this, percent.
 const CORE_PERCENT: f64 = 0.1;
-/// More friction against a hand that leaves a wall is worth a warning, N.
-const STICKING_N: f64 = 0.25;
+/// More mean friction against a hand that leaves a wall than the rules may leave (docs/results.md) is worth a warning, N.
+const STICKING_N: f64 = 0.06;
 
 /// One line each.
 pub fn lines(of: &Findings) -> Vec<String> {
