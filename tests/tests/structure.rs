@@ -305,3 +305,5 @@ fn each_fault_of_the_drive_can_be_put_back() {
 
 #[path = "structure/documents.rs"]
 mod documents;
+#[path = "structure/licences.rs"]
+mod licences;
