@@ -89,8 +89,8 @@ keys! { KEYS:
     LAW: ControlLaw = Key::words("law").or_word("inverse");
     /// How the core estimates the force: eq. 8, or the force table of the calibration.
     FORCE: Option<ForceEstimate> = Key::words("force").usually("as the profile says");
-    /// The voltage of a force before anything is measured: the one that gives it at rest under the nominal load (`steady`),
-    /// K·√F (`square-root`, eq. 9) or K·F (`linear`).
+    /// The voltage of a force before it is measured: that of the nominal load at rest (`steady`), K·√F (`square-root`, eq. 9) or
+    /// K·F (`linear`).
     CURVE: Option<DriveCurve> = Key::words("curve").usually("steady with law = \"inverse\", else square-root");
     /// Factor of the curve's voltage; with `inverse`, how far beyond the curve the drive may go.
     CURVE_FACTOR: Option<f64> = Key::number("curve_factor", LIMITS).usually("1.13 with law = \"inverse\", else 1");
@@ -102,8 +102,7 @@ keys! { KEYS:
     PROPORTIONAL_V: Option<f64> = Key::number("proportional_v", Limits::within(0.0, 1e5)).usually("from device and profile");
     /// With `proportional`, the share of the correction that a frame takes on.
     FILTER_SHARE: Option<f64> = Key::number("filter", Limits::above(0.0, 1.0)).usually("1; 0.2 where `proportional_v` is left out");
-    /// With `inverse`, the time constant of the trim to the force that is read, at 1 N; at F 1/√F times as long. No trim
-    /// where it is 0.
+    /// With `inverse`, the time constant of the trim to the force that is read, at 1 N; 1/√F times as long at F. None at 0.
     TRIM_S: f64 = Key::number("trim_s", Limits::within(0.0, 1e3)).or(USUAL_TRIM_S);
     /// With `integral`, the gain of the integral, V/(√N·s).
     INTEGRAL_V: Option<f64> = Key::number("integral_v", Limits::within(0.0, 1e7)).usually("from device and profile");

@@ -182,6 +182,26 @@ fn the_readme_repeats_rows_of_the_results_page() {
     assert!(rows.len() > 5, "rows are found");
 }
 
+/// The most words of a table's cell, where it does not list what each word of a key means.
+const CELL: usize = 25;
+
+#[test]
+fn cells_of_tables_are_short_in_readme_guide_and_results() {
+    let is_of_guide = |path: &PathBuf| path.parent() == Some(Path::new("docs/guide"));
+    let guide = files(&[".md"]).into_iter().filter(is_of_guide);
+    let others = ["README.md", "docs/results.md"].map(PathBuf::from);
+    for path in guide.chain(others) {
+        for (number, line) in read(&path).lines().enumerate() {
+            let row = line.strip_prefix("| ").unwrap_or_default().replace("\\|", " ");
+            for cell in row.split('|') {
+                let words = cell.split_whitespace().count();
+                let place = format!("{}:{}", path.display(), number + 1);
+                assert!(words <= CELL, "{place}: {words} words in a cell:{cell}");
+            }
+        }
+    }
+}
+
 /// Working papers of the developers, which users do not have.
 const ABSENT: [&str; 5] = [
     concat!("PHY", "SICS"),

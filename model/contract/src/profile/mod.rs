@@ -192,10 +192,9 @@ pub struct Force {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum ForceLaw {
-    /// F = k·(C·V)² with one k (paper, eq. 8).
+    /// F = k·(C·V)² with one k (eq. 8).
     Eq8,
-    /// F = k·(C·V)² with k from a table: of the capacitance, and of the voltage that the pad has had
-    /// (docs/physics.md §3).
+    /// Eq. 8 with k from a table of capacitance and past voltage (docs/physics.md §3).
     Table,
 }
 
