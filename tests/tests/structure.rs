@@ -303,6 +303,25 @@ fn each_fault_of_the_drive_can_be_put_back() {
     }
 }
 
+#[test]
+fn crates_with_debug_assertions_are_tested_with_them() {
+    let workspace: Table = read("Cargo.toml").parse().expect("TOML");
+    let of_crates = &workspace["profile"]["checked"]["package"];
+    let asserts = |path: &PathBuf| read(path).contains("debug_assert");
+    let mut found = 0;
+    for member in workspace["workspace"]["members"].as_array().expect("members") {
+        let folder = member.as_str().expect("a folder");
+        if sources(&format!("{folder}/src")).iter().any(asserts) {
+            let manifest: Table = read(format!("{folder}/Cargo.toml")).parse().expect("TOML");
+            let name = manifest["package"]["name"].as_str().expect("a name");
+            let on = of_crates.get(name).and_then(|of| of.get("debug-assertions"));
+            assert_eq!(on, Some(&Value::Boolean(true)), "[profile.checked.package.{name}]");
+            found += 1;
+        }
+    }
+    assert!(found > 4, "crates with assertions are found: {found}");
+}
+
 #[path = "structure/documents.rs"]
 mod documents;
 #[path = "structure/licences.rs"]
