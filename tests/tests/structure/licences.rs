@@ -15,6 +15,7 @@ fn packages_of(package: &str) -> BTreeSet<String> {
         .args(edges)
         .output()
         .expect("cargo runs");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let text = String::from_utf8(output.stdout).expect("UTF-8");
     let others = text.lines().filter(|line| !line.contains("(/") && !line.contains('\\'));
     let named = others.filter_map(|line| line.split_once(" v"));
