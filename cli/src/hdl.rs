@@ -126,7 +126,21 @@ fn print_board(
     let of = || format!("board {}, profile {}", board.name(), profile.name);
     let own = board.parameters();
     let parameters = Parameters { drive, baud: baud.unwrap_or(own.baud), ..own };
-    board.printed_with(profile, &parameters).with_context(of)
+    print_top(board, profile, &parameters).with_context(of)
+}
+
+#[cfg(feature = "boards")]
+fn print_top(board: Target, profile: &Profile, parameters: &Parameters) -> Result<Printed> {
+    Ok(board.printed_with(profile, parameters)?)
+}
+
+#[cfg(not(feature = "boards"))]
+fn print_top(board: Target, _profile: &Profile, _parameters: &Parameters) -> Result<Printed> {
+    anyhow::bail!(
+        "expected a `hapticore` with boards, whose compilation takes longer: `cargo install --path cli --features boards`, or \
+         `cargo run --release --features boards -- hdl --board {}` with the other options",
+        board.name()
+    )
 }
 
 /// A board: its Verilog, its constraints, and the script that makes its bitstream.

@@ -5,12 +5,13 @@
 //! | --- | --- |
 //! | [`board`] | the peripherals of a board and the board itself, as blocks like those of the core |
 //! | [`codes`] | which port of the core takes which word of a calibration |
-//! | [`mod@component`] | any block as a rust-hdl component |
+//! | `component` | any block as a rust-hdl component; with the feature `boards` alone |
 //! | [`header`] | prints the core of a profile, and what a bench of it must know |
 //! | [`netlist`] | netlists of cores and boards, compiled once for all crates |
 
 pub mod board;
 pub mod codes;
+#[cfg(feature = "boards")]
 pub mod component;
 pub mod header;
 pub mod netlist;

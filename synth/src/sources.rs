@@ -2,6 +2,7 @@
 //! The Verilog that a report is about.
 
 use hapticore_hdl::verilog::Design;
+#[cfg(feature = "boards")]
 use hapticore_rtl::board::target::{Printed, Target};
 
 /// A file by name.
@@ -23,6 +24,7 @@ pub fn files(design: &Design) -> Vec<File> {
 }
 
 /// The Verilog of a board's top and all within it, and its constraints.
+#[cfg(feature = "boards")]
 pub fn board(target: Target) -> Vec<File> {
     let Printed { verilog, constraints: (name, text) } = target.bundled();
     vec![File { name: "top.v".into(), text: verilog }, File { name, text }]

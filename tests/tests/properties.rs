@@ -9,6 +9,7 @@ use std::path::PathBuf;
 use hapticore_contract::frame::Measurement;
 use hapticore_model::blocks::core::Core;
 use hapticore_model::fidelity::clock::ClockSimulation;
+use hapticore_rtl::netlist;
 use hapticore_tests::stability::bench::{Bench, Pad};
 use hapticore_waveforms::tracer::{Settings, Tracer};
 use hapticore_waveforms::vcd_file::VcdFile;
@@ -95,7 +96,8 @@ fn waveforms(bench: &Bench, name: &str, pad: &Pad) -> PathBuf {
     };
     let mut core = ClockSimulation::new(profile, &bench.calibration);
     let wave = VcdFile::create(&path).expect("a file");
-    let mut tracer = Tracer::new(wave, &core, &[], &settings).expect("signals with names");
+    let signals = netlist::signals_of_core(&Core::new(profile));
+    let mut tracer = Tracer::of_signals(wave, signals, &[], &settings).expect("named signals");
     let slot = bench.slot(|n, channel| bench.signal(pad, n, channel));
     for codes in
         slot.chunks_exact(profile.channels()).cycle().take(2 * profile.slot.samples() as usize)

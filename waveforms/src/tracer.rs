@@ -14,7 +14,7 @@
 
 use std::ops::Range;
 
-use hapticore_hdl::probe::{Probe, Variable};
+use hapticore_hdl::probe::{Probe, Signals, Variable};
 
 use crate::Error;
 use crate::changes::{Codes, Timed, Truth};
@@ -82,23 +82,35 @@ impl<W: Wave> Tracer<W> {
     /// # Errors
     /// A signal that a viewer would misread, or a file that cannot be written.
     pub fn new(
-        mut wave: W,
+        wave: W,
         probe: &impl Probe,
         truth: &[TruthVariable],
         settings: &Settings,
     ) -> Result<Self, Error> {
-        let of_probe = probe.signals();
-        let mut signals = 0;
+        Tracer::of_signals(wave, Signals::of(probe), truth, settings)
+    }
+
+    /// The same with the signals of a probe's printed design.
+    ///
+    /// # Errors
+    /// As [`Tracer::new`].
+    pub fn of_signals(
+        mut wave: W,
+        signals: Signals,
+        truth: &[TruthVariable],
+        settings: &Settings,
+    ) -> Result<Self, Error> {
+        let mut count = 0;
         let mut numbered = |variables: &[Option<Variable>]| {
             let mut number = |variable: &Variable| {
-                signals += 1;
-                (signals - 1, variable.format.width)
+                count += 1;
+                (count - 1, variable.format.width)
             };
             Codes::new(variables.iter().map(|of| of.as_ref().map(&mut number)).collect())
         };
-        let (registers, ports) = (numbered(&of_probe.registers), numbered(&of_probe.ports));
+        let (registers, ports) = (numbered(&signals.registers), numbered(&signals.ports));
         let declarations =
-            Declarations::new(of_probe, truth, settings.clock_wire, settings.timebase)?;
+            Declarations::new(signals, truth, settings.clock_wire, settings.timebase)?;
         wave.begin(&declarations)?;
         Ok(Tracer {
             wave: Timed::new(wave),
@@ -112,7 +124,7 @@ impl<W: Wave> Tracer<W> {
             registers,
             ports,
             port_codes: Vec::new(),
-            truth: Truth::new(signals, truth.len()),
+            truth: Truth::new(count, truth.len()),
             marks: Vec::new(),
             failed: false,
         })

@@ -8,7 +8,9 @@
 
 use anyhow::Result;
 use hapticore_contract::control::{Drive, Tuning};
+use hapticore_model::blocks::force_loop::ForceLoop;
 use hapticore_model::fidelity::force_loop::ClockLoop;
+use hapticore_rtl::netlist;
 use hapticore_run::case::Case;
 use hapticore_run::control::plant::LoopSlot;
 use hapticore_run::interrupt;
@@ -33,7 +35,8 @@ pub fn trace<W: Wave>(
     let profile = &case.profile;
     let mut plant = case.loop_plant(Maker::new(case.plant()?, profile, true, false))?;
     let mut core = ClockLoop::new(profile, case.calibration()?, tuning)?;
-    let mut tracer = Tracer::new(wave, &core, &truth::variables(), &slots.settings)?;
+    let signals = netlist::signals_of_force_loop(&ForceLoop::try_new(profile)?);
+    let mut tracer = Tracer::of_signals(wave, signals, &truth::variables(), &slots.settings)?;
     let blanking = profile.slot.blanking() * profile.clocks_per_sample;
     tracer.skip(blanking);
     for number in 0..slots.end {

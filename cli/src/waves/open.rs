@@ -5,7 +5,9 @@
 //! core holds of earlier invalid slots is not there.
 
 use anyhow::Result;
+use hapticore_model::blocks::core::Core;
 use hapticore_model::fidelity::clock::ClockSimulation;
+use hapticore_rtl::netlist;
 use hapticore_run::case::Case;
 use hapticore_run::engine::Signals;
 use hapticore_run::interrupt;
@@ -25,7 +27,8 @@ pub fn trace<W: Wave>(case: &Case, slots: &Slots, wave: W, bar: &ProgressBar) ->
     let profile = &case.profile;
     let mut maker = Maker::new(case.plant()?, profile, true, true);
     let mut core = ClockSimulation::new(profile, case.calibration()?);
-    let mut tracer = Tracer::new(wave, &core, &truth::variables(), &slots.settings)?;
+    let signals = netlist::signals_of_core(&Core::new(profile));
+    let mut tracer = Tracer::of_signals(wave, signals, &truth::variables(), &slots.settings)?;
     tracer.skip(slots.first * profile.slot_clocks());
     let mut before: Option<Truth> = None;
     // Effects may have a state: slots are asked for in rising order.

@@ -3,9 +3,8 @@
 //!
 //! Names, formats, units and state names come from the bundles that declare registers and ports. A
 //! probe only observes: it takes no part in the simulation, and costs nothing where no tracer reads
-//! it. A simulation of a block also gives the [signals of its printed
-//! design](crate::verilog::dump), registers and ports, so that its waves and a dump of the Verilog
-//! have the same names.
+//! it. The [signals of a block's printed design](crate::verilog::dump), registers and ports, are read off
+//! its netlist, so that its waves and a dump of the Verilog have the same names.
 //!
 //! ```text
 //! clock      n         n+1
@@ -39,13 +38,7 @@ pub trait Probe {
     /// Appends the present code of each variable.
     fn sample(&self, codes: &mut Vec<i64>);
 
-    /// What waves show of it: its variables, unless it has a printed design.
-    fn signals(&self) -> Signals {
-        let registers = self.variables().into_iter().map(Some).collect();
-        Signals { registers, ports: Vec::new(), clock: None }
-    }
-
-    /// Appends the code that each port of [`Probe::signals`] had until the edge of the last clock.
+    /// Appends the code that each of [`Signals::ports`] had until the edge of the last clock.
     fn sample_ports(&self, _codes: &mut Vec<i64>) {}
 }
 
@@ -58,6 +51,14 @@ pub struct Signals {
     pub ports: Vec<Option<Variable>>,
     /// Scope and name of the clock, where it is known.
     pub clock: Option<(Vec<String>, &'static str)>,
+}
+
+impl Signals {
+    /// The variables of a simulation that has no printed design.
+    pub fn of(probe: &impl Probe) -> Self {
+        let registers = probe.variables().into_iter().map(Some).collect();
+        Signals { registers, ports: Vec::new(), clock: None }
+    }
 }
 
 /// The variables of a block and all within it, the block itself being the scope `name`.

@@ -10,9 +10,8 @@ use hapticore_contract::frame::Frame;
 use hapticore_contract::profile::Profile;
 use hapticore_hdl::block::{self, Block};
 use hapticore_hdl::bundle::Bundle;
-use hapticore_hdl::probe::{Probe, Signals, Variable, sample, sample_ports, variables};
+use hapticore_hdl::probe::{Probe, Variable, sample, sample_ports, variables};
 use hapticore_hdl::signal::{Signal, bit};
-use hapticore_hdl::verilog::dump;
 
 /// A core at work, clock by clock. Its memory does not grow with time.
 pub struct ClockSimulation {
@@ -181,10 +180,6 @@ impl Probe for ClockSimulation {
 
     fn sample(&self, codes: &mut Vec<i64>) {
         sample(&self.core, &self.state.core, codes);
-    }
-
-    fn signals(&self) -> Signals {
-        dump::signals(&self.core, &["bench", "core"])
     }
 
     fn sample_ports(&self, codes: &mut Vec<i64>) {

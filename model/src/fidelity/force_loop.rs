@@ -21,9 +21,8 @@ use hapticore_contract::profile::{Profile, ProfileError};
 use hapticore_hdl::block::{Block, State};
 use hapticore_hdl::bundle::Bundle;
 use hapticore_hdl::format::Format;
-use hapticore_hdl::probe::{Probe, Signals, Variable, sample, sample_ports, variables};
+use hapticore_hdl::probe::{Probe, Variable, sample, sample_ports, variables};
 use hapticore_hdl::signal::{Signal, bit};
-use hapticore_hdl::verilog::dump;
 
 /// The tuning's words as codes, all drives on, nothing written.
 pub fn tuning_codes(
@@ -484,10 +483,6 @@ impl Probe for ClockLoop {
 
     fn sample(&self, codes: &mut Vec<i64>) {
         sample(&self.block, &self.state.block, codes);
-    }
-
-    fn signals(&self) -> Signals {
-        dump::signals(&self.block, &["bench", "force_loop"])
     }
 
     fn sample_ports(&self, codes: &mut Vec<i64>) {

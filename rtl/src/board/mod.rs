@@ -15,7 +15,8 @@
 //! | [`registers`] | calibration, in |
 //! | [`drive_registers`] | settings, targets and walls of a force loop, in |
 //! | [`parameters`] | what a board adds to a profile |
-//! | [`top`], [`target`] | tops in rust-hdl, and the boards that one can buy: pins, constraints |
+//! | [`target`] | the boards that one can buy |
+//! | `top`, `printing` | tops in rust-hdl, pins, constraints; with the feature `boards` alone, since rust-hdl comes with it |
 
 pub mod adc_reader;
 mod bits;
@@ -26,10 +27,13 @@ pub mod framing;
 pub mod line_test;
 pub mod pads;
 pub mod parameters;
+#[cfg(feature = "boards")]
+mod printing;
 pub mod registers;
 pub mod sigma_delta;
 pub mod stream;
 pub mod target;
+#[cfg(feature = "boards")]
 pub mod top;
 pub mod uart;
 pub mod whole;

@@ -75,22 +75,13 @@ impl Logic for PowerUp {
 /// Which primitive puts SCLK out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Primitive {
-    /// Lattice ECP5's ODDRX1F: three clocks late (its simulation model has three registers).
+    /// Lattice ECP5's ODDRX1F.
     Oddrx1f,
-    /// Lattice iCE40's SB_IO with a DDR output: the second half of a clock is what is there in the
-    /// middle of it, so that there is no latency.
+    /// Lattice iCE40's SB_IO with a DDR output.
     SbIo,
 }
 
 impl Primitive {
-    /// Clocks from `run` to the pulse.
-    pub fn latency(self) -> u64 {
-        match self {
-            Primitive::Oddrx1f => 3,
-            Primitive::SbIo => 0,
-        }
-    }
-
     fn verilog(self) -> &'static str {
         match self {
             Primitive::Oddrx1f => {

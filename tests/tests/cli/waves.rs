@@ -9,9 +9,9 @@ use hapticore_contract::control::{Control, Law};
 use hapticore_contract::frame::Field;
 use hapticore_contract::profile::{Profile, Wall};
 use hapticore_hdl::probe::Signals;
-use hapticore_hdl::verilog::dump;
 use hapticore_model::blocks::core::Core;
 use hapticore_model::blocks::force_loop::ForceLoop;
+use hapticore_rtl::netlist;
 use hapticore_waveforms::declarations::{Declarations, Signal};
 use hapticore_waveforms::pattern::fits;
 use hapticore_waveforms::timebase::Timebase;
@@ -267,10 +267,10 @@ fn every_pattern_of_a_bundled_view_finds_signals() {
     let control = Some(Control::of(&standard, Law::Inverse));
     let controlled = Profile { control, ..standard.clone() };
     let walled = Profile { wall: Some(Wall::A), pads: Wall::A.parts, ..controlled.clone() };
-    check_patterns("slot", &paths(dump::signals(&Core::new(&standard), &["bench", "core"])));
+    check_patterns("slot", &paths(netlist::signals_of_core(&Core::new(&standard))));
     let of_loop = |profile: &Profile| {
         let force_loop = ForceLoop::try_new(profile).expect("a controller");
-        paths(dump::signals(&force_loop, &["bench", "force_loop"]))
+        paths(netlist::signals_of_force_loop(&force_loop))
     };
     // Of a split pad others ask for a drive word.
     check_patterns("force_loop", &[of_loop(&controlled), of_loop(&walled)].concat());

@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Notices of third parties' licences come with binaries, and name what these are made of.
+//! Packages of other authors: how many the command brings, and notices of their licences.
 
 use std::collections::BTreeSet;
 use std::process::Command;
 
 use crate::{read, root};
 
-/// Packages of other authors in the binary of a package, as `name version`.
-fn packages_of(package: &str) -> BTreeSet<String> {
+/// The most packages of other authors that are linked for the first result.
+const MOST_LINKED: usize = 120;
+
+/// Packages of other authors in the binary of a package, with features, as `name version`.
+fn packages_of(package: &str, features: &str) -> BTreeSet<String> {
     let edges = ["--edges", "normal,no-proc-macro", "--prefix", "none", "--format", "{p}"];
     let output = Command::new(env!("CARGO"))
         .current_dir(root())
-        .args(["tree", "--locked", "--package", package])
+        .args(["tree", "--locked", "--package", package, "--features", features])
         .args(edges)
         .output()
         .expect("cargo runs");
@@ -36,9 +39,10 @@ fn named_in(notice: &str) -> BTreeSet<String> {
 #[test]
 fn notices_of_licences_name_every_package_of_the_binaries() {
     let locked = read("Cargo.lock");
-    for (package, folder) in [("hapticore", "cli"), ("hapticore-python", "python")] {
+    let binaries = [("hapticore", "boards", "cli"), ("hapticore-python", "", "python")];
+    for (package, features, folder) in binaries {
         let notice = format!("{folder}/LICENSE-THIRD-PARTY");
-        let (linked, named) = (packages_of(package), named_in(&notice));
+        let (linked, named) = (packages_of(package, features), named_in(&notice));
         assert!(linked.len() > 100, "{package}: {linked:?}");
         let missing: Vec<_> = linked.difference(&named).collect();
         assert!(missing.is_empty(), "{notice} lacks {missing:?}: run cli/licences/write");
@@ -52,4 +56,14 @@ fn notices_of_licences_name_every_package_of_the_binaries() {
             "{notice} names {gone:?}, of other versions: run cli/licences/write"
         );
     }
+}
+
+#[test]
+fn rust_hdl_is_linked_for_boards_alone() {
+    let linked = |features: &str| packages_of("hapticore", features);
+    let hdl =
+        |packages: &BTreeSet<String>| packages.iter().any(|name| name.starts_with("rust-hdl"));
+    let (lean, whole) = (linked(""), linked("boards"));
+    assert!(hdl(&whole) && !hdl(&lean));
+    assert!(lean.len() <= MOST_LINKED, "{} packages: {lean:?}", lean.len());
 }
