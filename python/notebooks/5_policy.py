@@ -17,7 +17,7 @@ import numpy as np
 import hapticore as hc
 
 LONG = "HAPTICORE_LONG" in os.environ
-GENERATIONS, POLICIES, BEST, STEPS = (10, 24, 6, 1000) if LONG else (5, 14, 3, 400)
+GENERATIONS, POLICIES, BEST, STEPS = (10, 24, 6, 1000) if LONG else (4, 10, 3, 400)
 
 env = gymnasium.make("hapticore/Wall-v0")
 steps = 0
