@@ -361,7 +361,7 @@ pub enum CodesFormat {
 /// Arguments of `hdl`.
 #[derive(Debug, Clone, clap::Args)]
 pub struct HdlArgs {
-    /// A board: its top, constraints and a script that makes a bitstream, too
+    /// A board: its top, constraints and a script that makes a bitstream, too; of a command with the feature `boards`
     #[arg(long, value_name = "ulx3s|icebreaker")]
     pub board: Option<String>,
     /// Bits a second of the board's serial line [default: 1000000; fast with 4,000 frames a second needs 3000000]

@@ -245,10 +245,35 @@ impl Part {
         let mut text =
             format!("## {}\n\n{}\n\n| {} |\n|", self.heading, self.says, self.head.join(" | "));
         text += &" --- |".repeat(self.head.len());
+        let mut below = String::new();
         for row in &self.rows {
             let cells: Vec<_> = row.iter().map(|cell| cell.replace('|', "\\|")).collect();
-            let _ = write!(text, "\n| `{}` | {} |", cells[0], cells[1..].join(" | "));
+            let (meaning, others) = cells[1..].split_last().expect("a meaning");
+            let (short, rest) = shortened(meaning);
+            let others: String = others.iter().map(|cell| format!("{cell} | ")).collect();
+            let _ = write!(text, "\n| `{}` | {others}{short} |", cells[0]);
+            if !rest.is_empty() {
+                let _ = writeln!(below, "- `{}`: {rest}", cells[0]);
+            }
         }
-        text + "\n"
+        let gap = if below.is_empty() { "" } else { "\n" };
+        text + "\n" + gap + &below
+    }
+}
+
+/// Words that a cell of a page's table may have.
+const CELL_WORDS: usize = 25;
+
+/// A meaning as a cell that is short enough, and what stands below the table.
+fn shortened(meaning: &str) -> (String, &str) {
+    let ends = |at: &usize| {
+        let starts = |c: char| c.is_uppercase() || c == '`';
+        meaning[at + 1..].starts_with(' ')
+            && (meaning[*at..].starts_with([':', ';']) || meaning[at + 2..].starts_with(starts))
+    };
+    let end = meaning.match_indices(['.', ':', ';']).map(|(at, _)| at).find(ends);
+    match end.filter(|_| meaning.split_whitespace().count() > CELL_WORDS) {
+        Some(end) => (format!("{}.", &meaning[..end]), &meaning[end + 2..]),
+        None => (meaning.into(), ""),
     }
 }

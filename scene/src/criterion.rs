@@ -70,8 +70,8 @@ measures! {
     /// Smallest step, negated, between group means ordered by the truth of `with`, all else equal,
     /// in percent of the mean: below the limit (usually 0) where the estimate rises throughout.
     IncreasesWith: "increases_with";
-    /// Largest departure of the estimate from the straight line that fits it best over the truth of
-    /// `with`, all else equal, in percent of what the line spans.
+    /// Largest departure of the estimate from the best straight line over the truth of `with`, all else equal, in percent
+    /// of the line's span.
     NonlinearityPercent: "nonlinearity_percent";
     /// Largest sample of the ADC channels, percent of full scale.
     MaxPercentOfFullScale: "max_percent_of_full_scale";
